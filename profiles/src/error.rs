@@ -1,0 +1,112 @@
+//! What can be wrong with a request, with the number that is wrong.
+
+use thiserror::Error;
+
+/// Bounds that an axis cannot have.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "{quantity} must be bounded below by a negative and above by a positive number, got [{lower}, {upper}]"
+)]
+pub struct LimitsError {
+    /// The bounded quantity.
+    pub quantity: &'static str,
+    /// The lower bound given.
+    pub lower: f64,
+    /// The upper bound given.
+    pub upper: f64,
+}
+
+/// A vibration mode that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ModeError {
+    /// A frequency that is not positive and finite, as given.
+    #[error("the frequency of a mode must be positive and finite, got {0}")]
+    Frequency(f64),
+    /// A damping ratio outside `[0, 1)`.
+    #[error("the damping ratio of a vibrating mode must lie in [0, 1), got {0}")]
+    DampingRatio(f64),
+}
+
+/// A move that cannot be planned.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// A distance that is infinite or NaN.
+    #[error("the distance must be finite, got {0}")]
+    Distance(f64),
+    /// A speed that is infinite, NaN or, where a speed has no sign, negative.
+    #[error("{which} speed must be finite and within its sign, got {value}")]
+    Speed {
+        /// Which speed.
+        which: &'static str,
+        /// The speed given, m/s.
+        value: f64,
+    },
+    /// A speed beyond the limit of the velocity.
+    #[error("{which} speed {value} is outside the velocity limits [{lower}, {upper}]")]
+    SpeedLimit {
+        /// Which speed.
+        which: &'static str,
+        /// The speed given, m/s.
+        value: f64,
+        /// The lower limit, m/s.
+        lower: f64,
+        /// The upper limit, m/s.
+        upper: f64,
+    },
+    /// The law needs a finite limit where none is set.
+    #[error("this law needs a finite limit of the {0}")]
+    Unlimited(&'static str),
+    /// The law takes only symmetric limits of a quantity.
+    #[error("this law needs symmetric limits of the {quantity}, got [{lower}, {upper}]")]
+    Asymmetric {
+        /// The quantity.
+        quantity: &'static str,
+        /// The lower limit.
+        lower: f64,
+        /// The upper limit.
+        upper: f64,
+    },
+    /// The distance is too short to get from the start speed to the stop speed.
+    #[error("changing speed takes at least {needed}, the distance is {distance}")]
+    TooShort {
+        /// The distance given, m.
+        distance: f64,
+        /// The shortest distance in which the speeds can be reached, m.
+        needed: f64,
+    },
+    /// A duration to stretch to that is not finite or shorter than the profile's own.
+    #[error("a profile of {shortest} s cannot last {requested} s")]
+    Duration {
+        /// The duration asked for, s.
+        requested: f64,
+        /// The profile's own duration, s.
+        shortest: f64,
+    },
+    /// The numbers are so large or so small that the plan leaves the range of double precision.
+    #[error("the plan leaves the range of double precision: its {quantity} would be {value}")]
+    Range {
+        /// The quantity that has no representation.
+        quantity: &'static str,
+        /// What came out.
+        value: f64,
+    },
+}
+
+/// A clock that cannot drive a profile.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ClockError {
+    /// A period that is not positive and finite, s.
+    #[error("a period must be positive and finite, got {0} s")]
+    Period(f64),
+    /// More ticks than an exact tick count can hold.
+    #[error("a profile of {duration} s has too many ticks of {period} s")]
+    TooManyTicks {
+        /// The period given, s.
+        period: f64,
+        /// The duration of the profile, s.
+        duration: f64,
+    },
+}
