@@ -110,3 +110,37 @@ pub enum ClockError {
         duration: f64,
     },
 }
+
+/// A table that cannot be written.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// A clock that cannot drive the profile.
+    #[error(transparent)]
+    Clock(#[from] ClockError),
+    /// More rows than a table may have.
+    #[error("the table would have {rows} rows, the most is {most}")]
+    TooManyRows {
+        /// Rows asked for.
+        rows: f64,
+        /// Rows allowed.
+        most: f64,
+    },
+    /// The name is no C identifier.
+    #[error("a table needs a C identifier as its name")]
+    Name,
+    /// The unit would break the header.
+    #[error("a unit must not hold commas, quotes or line breaks")]
+    Unit,
+    /// A value that single precision cannot hold.
+    #[error("{quantity} reaches {value}, beyond single precision")]
+    BeyondSingle {
+        /// The quantity.
+        quantity: &'static str,
+        /// Its largest magnitude.
+        value: f64,
+    },
+    /// The writer reported an error.
+    #[error(transparent)]
+    Write(#[from] core::fmt::Error),
+}

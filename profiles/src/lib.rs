@@ -1,10 +1,26 @@
+#![doc = include_str!("../README.md")]
 #![no_std]
-//! x
+
+mod complex;
+mod cursor;
 mod error;
+mod laws;
+mod polynomial;
 mod profile;
 mod quantities;
-pub use error::{ClockError, LimitsError, ModeError, PlanError};
+mod section;
+mod stretch;
+mod table;
+
+pub use cursor::Cursor;
+pub use error::{ClockError, LimitsError, ModeError, PlanError, TableError};
+pub use laws::{Cosine, SCurve, SnapLimited, Trapezoid};
+pub use num_complex::Complex;
+pub use polynomial::Piecewise;
 pub use profile::{Extrema, Profile, residual_vibration, transform};
 pub use quantities::{Interval, Limits, Mode, Real, Sample, State};
+pub use section::{Section, Sectioned};
+pub use table::{write_c_table, write_csv};
+
 #[cfg(test)]
 extern crate std;

@@ -2,6 +2,7 @@
 
 use num_complex::Complex;
 
+use crate::complex;
 use crate::quantities::{Interval, Mode, Sample};
 
 /// A motion along one axis, planned and complete.
@@ -48,7 +49,7 @@ pub struct Extrema {
 /// The Laplace transform of the acceleration of a profile, `e^(-s T) response(s)`, m/s.
 #[must_use]
 pub fn transform<P: Profile + ?Sized>(profile: &P, s: Complex<f64>) -> Complex<f64> {
-    (-s * profile.duration()).exp() * profile.response(s)
+    complex::exp(-s * profile.duration()) * profile.response(s)
 }
 
 /// The amplitude in m with which `mode`, at rest before the motion, goes on vibrating about the moving axis when
@@ -57,5 +58,5 @@ pub fn transform<P: Profile + ?Sized>(profile: &P, s: Complex<f64>) -> Complex<f
 /// For a move it is set against the distance, for a velocity ramp against `|dv| / w`.
 #[must_use]
 pub fn residual_vibration<P: Profile + ?Sized>(profile: &P, mode: Mode) -> f64 {
-    profile.response(mode.pole()).norm() / mode.damped_angular_frequency()
+    complex::norm(profile.response(mode.pole())) / mode.damped_angular_frequency()
 }

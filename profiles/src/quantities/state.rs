@@ -43,15 +43,58 @@ impl<F: Real> State<F> {
 }
 
 impl<F: Real> Sample<F> {
+    /// Constant velocity through `position`.
+    #[must_use]
+    pub fn cruising(position: F, velocity: F) -> Self {
+        Self { velocity, ..Self::at_rest(position) }
+    }
+
     /// Rest at `position`.
     #[must_use]
     pub fn at_rest(position: F) -> Self {
         Self { position, velocity: F::ZERO, acceleration: F::ZERO, jerk: F::ZERO, snap: F::ZERO }
     }
 
+    /// The motion `dt` seconds later (earlier, where negative) if snap keeps its value.
+    #[inline]
+    #[must_use]
+    pub fn advanced(self, dt: F) -> Self {
+        // Nested Taylor series: p + dt (v + dt/2 (a + dt/3 (j + dt/4 s))) and its derivatives.
+        let half = dt * F::HALF;
+        let third = dt * F::from_f64(1.0 / 3.0);
+        let quarter = half * F::HALF;
+        Self {
+            position: self.position
+                + dt * (self.velocity
+                    + half * (self.acceleration + third * (self.jerk + quarter * self.snap))),
+            velocity: self.velocity + dt * (self.acceleration + half * (self.jerk + third * self.snap)),
+            acceleration: self.acceleration + dt * (self.jerk + half * self.snap),
+            jerk: self.jerk + dt * self.snap,
+            snap: self.snap,
+        }
+    }
+
     /// The sample without jerk and snap.
     #[must_use]
     pub fn state(self) -> State<F> {
         State { position: self.position, velocity: self.velocity, acceleration: self.acceleration }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advancing_is_the_taylor_series() {
+        let now = Sample { position: 1.0, velocity: -2.0, acceleration: 3.0, jerk: 5.0, snap: -7.0 };
+        // Summed by hand at dt = 2: 1 - 4 + 6 + 40/6 - 112/24, -2 + 6 + 10 - 56/6, 3 + 10 - 14, 5 - 14.
+        let later = now.advanced(2.0);
+        assert!((later.position - 5.0).abs() < 1e-14);
+        assert!((later.velocity - 14.0 / 3.0).abs() < 1e-14);
+        assert!((later.acceleration + 1.0).abs() < 1e-14);
+        assert!((later.jerk + 9.0).abs() < 1e-14);
+        let back = later.advanced(-2.0);
+        assert!((back.position - now.position).abs() < 1e-13 && (back.velocity - now.velocity).abs() < 1e-13);
     }
 }

@@ -1,0 +1,239 @@
+//! A raised cosine of the velocity.
+
+use core::f64::consts::PI;
+
+use num_complex::Complex;
+
+use super::{finite_distance, representable, speed_within, symmetric_limits};
+use crate::error::PlanError;
+use crate::polynomial::response;
+use crate::profile::{Extrema, Profile};
+use crate::quantities::{Interval, Limits, Real, Sample};
+use crate::section::{Section, Sectioned};
+use crate::stretch::Stretch;
+
+/// The motion whose velocity rises and falls along half a period of a cosine.
+///
+/// A ramp by `dv` in the time `t1` is `v = v0 + dv/2 (1 - cos(pi t / t1))`; its peaks are `pi dv / (2 t1)` of the
+/// acceleration and `pi^2 dv / (2 t1^2)` of the jerk, and `t1` is the shortest that holds both limits. The jerk
+/// jumps to its peak at both ends of a ramp, so a limit of snap has no meaning for the law. Limits of acceleration
+/// and jerk must be symmetric.
+///
+/// ```
+/// use profiles::{Cosine, Limits, Profile};
+///
+/// let profile = Cosine::velocity_ramp(0.0, 0.2, &Limits::new(0.2, 4.0, 200.0)?)?;
+/// assert!((profile.duration() - core::f64::consts::PI * 0.2 / 8.0).abs() < 1e-16);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cosine {
+    sections: [Section; 3],
+    before: Sample,
+    after: Sample,
+    /// Change of velocity in the first ramp, m/s.
+    change: f64,
+}
+
+impl Cosine {
+    /// The fastest move of this law over a signed `distance` in m.
+    ///
+    /// # Errors
+    /// A distance that is not finite, asymmetric limits, no limit of either acceleration or jerk, or numbers beyond
+    /// double precision.
+    pub fn rest_to_rest(distance: f64, limits: &Limits) -> Result<Self, PlanError> {
+        let length = finite_distance(distance)?.abs();
+        let bounds = Bounds::of(limits)?;
+        if length == 0.0 {
+            return Ok(Self::empty(Sample::default()));
+        }
+        // Without a cruise h = v t1(v) for each of the two limits in turn.
+        let speed = limits
+            .along(distance)
+            .velocity()
+            .upper
+            .min(Real::sqrt(bounds.acceleration * length * (2.0 / PI)))
+            .min(Real::cbrt(bounds.jerk * length * length * (2.0 / (PI * PI))));
+        let ramp = representable("ramp", bounds.ramp_time(speed))?;
+        let down_start = (length / speed).max(ramp);
+        let duration = representable("duration", down_start + ramp)?;
+
+        let velocity = speed.copysign(distance);
+        let cruise = Sample::cruising(0.5 * velocity * ramp, velocity);
+        let wave = Wave { change: velocity, from: 0.0, ramp };
+        Ok(Self {
+            sections: [
+                wave.section(0.0, ramp, 0.0, 0.0),
+                Section::polynomial(ramp, down_start, ramp, cruise),
+                wave.section(down_start, duration, duration, distance),
+            ],
+            before: Sample::default(),
+            after: Sample::at_rest(distance),
+            change: velocity,
+        })
+    }
+
+    /// The fastest change of velocity of this law from `from` to `to`, both in m/s and signed.
+    ///
+    /// # Errors
+    /// A speed that is not finite or outside the limits, asymmetric limits, no limit of either acceleration or
+    /// jerk, or numbers beyond double precision.
+    pub fn velocity_ramp(from: f64, to: f64, limits: &Limits) -> Result<Self, PlanError> {
+        let from = speed_within("start", from, limits.velocity())?;
+        let to = speed_within("stop", to, limits.velocity())?;
+        let bounds = Bounds::of(limits)?;
+        let change = to - from;
+        if change == 0.0 {
+            return Ok(Self::empty(Sample::cruising(0.0, from)));
+        }
+        let ramp = representable("ramp", bounds.ramp_time(change.abs()))?;
+        let after = Sample::cruising(0.5 * (from + to) * ramp, to);
+        let rest = Section::polynomial(ramp, ramp, ramp, after);
+        Ok(Self {
+            sections: [Wave { change, from, ramp }.section(0.0, ramp, 0.0, 0.0), rest, rest],
+            before: Sample::cruising(0.0, from),
+            after,
+            change,
+        })
+    }
+
+    /// The same motion in a longer time, see [`Piecewise::stretched_to`](crate::Piecewise::stretched_to).
+    ///
+    /// # Errors
+    /// A duration that is not finite or shorter than the motion's own.
+    pub fn stretched_to(&self, duration: f64) -> Result<Self, PlanError> {
+        let stretch = Stretch::new(self.duration(), duration, self.before, self.after)?;
+        let (position, speed) = stretch.scales();
+        let sections = self.sections.map(|s| {
+            let (start, end, anchor) = (stretch.time(s.start), stretch.time(s.end), stretch.time(s.anchor));
+            Section {
+                start,
+                end,
+                anchor,
+                polynomial: stretch.motion(s.polynomial),
+                amplitude: s.amplitude * position,
+                angular_frequency: s.angular_frequency * (speed / position),
+            }
+        });
+        Ok(Self {
+            sections,
+            before: stretch.motion(self.before),
+            after: stretch.motion(self.after),
+            change: self.change * speed,
+        })
+    }
+
+    fn empty(motion: Sample) -> Self {
+        let nothing = Section::polynomial(0.0, 0.0, 0.0, motion);
+        Self { sections: [nothing; 3], before: motion, after: motion, change: 0.0 }
+    }
+
+    fn rise(&self) -> &Section {
+        let [rise, _, _] = &self.sections;
+        rise
+    }
+}
+
+/// One ramp of the law.
+#[derive(Debug, Clone, Copy)]
+struct Wave {
+    change: f64,
+    from: f64,
+    ramp: f64,
+}
+
+impl Wave {
+    /// The ramp expanded about its slow end: rising from there, or falling to it from before.
+    fn section(self, start: f64, end: f64, anchor: f64, position: f64) -> Section {
+        let w = PI / self.ramp;
+        let half = 0.5 * self.change;
+        Section {
+            amplitude: -half / w,
+            angular_frequency: w,
+            ..Section::polynomial(start, end, anchor, Sample::cruising(position, self.from + half))
+        }
+    }
+}
+
+/// Magnitudes of the limits a ramp must hold; one of them is finite.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
+    acceleration: f64,
+    jerk: f64,
+}
+
+impl Bounds {
+    fn of(limits: &Limits) -> Result<Self, PlanError> {
+        let (acceleration, jerk) = symmetric_limits(limits)?;
+        if acceleration.is_infinite() && jerk.is_infinite() {
+            return Err(PlanError::Unlimited("acceleration or the jerk"));
+        }
+        Ok(Self { acceleration, jerk })
+    }
+
+    /// The shortest ramp by `speed`, s.
+    fn ramp_time(self, speed: f64) -> f64 {
+        (0.5 * PI * (speed / self.acceleration)).max(PI * Real::sqrt(speed / (2.0 * self.jerk)))
+    }
+}
+
+impl Profile for Cosine {
+    fn duration(&self) -> f64 {
+        let [_, _, fall] = &self.sections;
+        fall.end
+    }
+
+    fn sample(&self, t: f64) -> Sample {
+        if t >= 0.0 {
+            match self.sections.iter().find(|section| t < section.end) {
+                Some(section) => section.at(t),
+                None => self.after.advanced(t - self.duration()),
+            }
+        } else {
+            self.before.advanced(if t < 0.0 { t } else { 0.0 })
+        }
+    }
+
+    fn extrema(&self) -> Extrema {
+        let (from, to) = (self.before.velocity, self.after.velocity);
+        let w = self.rise().angular_frequency;
+        let nothing = Interval::default();
+        let peak = 0.5 * self.change * w;
+        let mut position = nothing.including(self.after.position);
+        if from * to < 0.0 {
+            // The velocity changes sign where cos(w t) = 1 + 2 v0 / dv.
+            let turn = libm::acos((1.0 + 2.0 * from / self.change).clamped(-1.0, 1.0)) / w;
+            position = position.including(self.rise().at(turn).position);
+        }
+        let one_way = nothing.including(peak);
+        let move_to_rest = self.sections.iter().filter(|section| section.amplitude != 0.0).count() == 2;
+        let acceleration = if move_to_rest { Interval::symmetric(peak.abs()) } else { one_way };
+        Extrema {
+            position,
+            velocity: Interval::new(from, from).including(from + self.change).including(to),
+            acceleration,
+            jerk: Interval::symmetric(peak.abs() * w),
+            snap: Interval::new(-acceleration.upper * w * w, -acceleration.lower * w * w),
+        }
+    }
+
+    fn response(&self, p: Complex<f64>) -> Complex<f64> {
+        response::over(self, p)
+    }
+}
+
+impl Sectioned for Cosine {
+    const HARMONIC: bool = true;
+
+    fn section(&self, index: usize) -> Option<Section> {
+        self.sections.get(index).copied()
+    }
+
+    fn before(&self) -> Sample {
+        self.before
+    }
+
+    fn after(&self) -> Sample {
+        self.after
+    }
+}

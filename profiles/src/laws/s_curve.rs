@@ -1,0 +1,242 @@
+//! Constant jerk in seven sections.
+
+use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within};
+use crate::error::PlanError;
+use crate::polynomial::{Piecewise, Ramp};
+use crate::quantities::{Limits, Real, Sample};
+
+/// The S-curve: the fastest motion within limits of velocity, acceleration and jerk.
+///
+/// All bounds may differ for the two directions. With symmetric ones a move of length `h` is a step through three
+/// moving averages of lengths `t1 >= t2 + t3`, `t2 >= t3`:
+///
+/// `h = v t1`, `v = a t2`, `a = J t3`, duration `t1 + t2 + t3`
+///
+/// with the averages as short as the limits allow. With different bounds a ramp to the speed `v` with the peak
+/// acceleration `A`, rising with `Jr` and falling with `Jf` in `tr = A/Jr`, `tf = A/Jf`, covers
+///
+/// `v^2 / (2 A) + v tf / 2 + A (tr^2 - tf^2) / 24`
+///
+/// and where two ramps do not reach the velocity limit their common speed is solved for. Limits of snap have no
+/// meaning for the law.
+///
+/// # References
+/// L. Biagiotti, C. Melchiorri, FIR filters for online trajectory planning with time- and frequency-domain
+/// specifications, Control Engineering Practice 20 (2012) 1385-1399,
+/// [doi:10.1016/j.conengprac.2012.08.005](https://doi.org/10.1016/j.conengprac.2012.08.005).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SCurve(Piecewise<7>);
+
+polynomial_law!(SCurve, 7);
+
+impl SCurve {
+    /// The fastest move over a signed `distance` in m.
+    ///
+    /// # Errors
+    /// A distance that is not finite, an unlimited jerk, or numbers beyond double precision.
+    pub fn rest_to_rest(distance: f64, limits: &Limits) -> Result<Self, PlanError> {
+        let distance = finite_distance(distance)?;
+        let along = limits.along(distance);
+        let jerk = Jerk::of(&along)?;
+        if distance == 0.0 {
+            return Ok(Self(Piecewise::empty(Sample::default())));
+        }
+        let (velocity, up, down) =
+            (along.velocity().upper, along.acceleration().upper, -along.acceleration().lower);
+        let plan = if along.acceleration().is_symmetric() && along.jerk().is_symmetric() {
+            symmetric_move(distance, velocity, up, jerk.rising)
+        } else {
+            asymmetric_move(distance, velocity, up, down, jerk)
+        };
+        // Every candidate is verified: the sections must add up to the distance.
+        representable("duration", plan.duration)?;
+        let [_, _, _, cruise, ..] = plan.motions;
+        let [_, _, rising_end, cruise_end, ..] = plan.ends;
+        let met = cruise.position + cruise.velocity * (cruise_end - rising_end);
+        let [_, _, _, _, falling, ..] = plan.motions;
+        if (met - falling.position).abs() <= 1e-12 * distance.abs() {
+            Ok(Self(plan))
+        } else {
+            Err(PlanError::Range { quantity: "distance", value: met })
+        }
+    }
+
+    /// The fastest change of velocity from `from` to `to`, both in m/s and signed.
+    ///
+    /// # Errors
+    /// A speed that is not finite or outside the limits, an unlimited jerk, or numbers beyond double precision.
+    pub fn velocity_ramp(from: f64, to: f64, limits: &Limits) -> Result<Self, PlanError> {
+        let from = speed_within("start", from, limits.velocity())?;
+        let to = speed_within("stop", to, limits.velocity())?;
+        let change = to - from;
+        let along = limits.along(change);
+        let jerk = Jerk::of(&along)?;
+        if change == 0.0 {
+            return Ok(Self(Piecewise::empty(Sample::cruising(0.0, from))));
+        }
+        let ramp = ramp(change, along.acceleration().upper, jerk);
+        representable("duration", ramp.duration)?;
+        Ok(Self(ramp.from_speed(from, to)))
+    }
+}
+
+/// Magnitudes of the jerk with which the acceleration rises and falls on the way to the peak velocity.
+#[derive(Debug, Clone, Copy)]
+struct Jerk {
+    rising: f64,
+    falling: f64,
+}
+
+impl Jerk {
+    fn of(along: &Limits) -> Result<Self, PlanError> {
+        Ok(Self {
+            rising: finite_limit("jerk", along.jerk().upper)?,
+            falling: finite_limit("jerk", -along.jerk().lower)?,
+        })
+    }
+
+    /// `(1/Jr + 1/Jf) / 2`: a triangle of the acceleration with peak `A` gains the speed `A^2` times this.
+    fn mean_inverse(self) -> f64 {
+        0.5 * (1.0 / self.rising + 1.0 / self.falling)
+    }
+}
+
+/// The ramp from rest to the signed velocity `change` with at most the acceleration `limit`.
+fn ramp(change: f64, limit: f64, jerk: Jerk) -> Ramp<3> {
+    let speed = change.abs();
+    let inverse = jerk.mean_inverse();
+    let triangular = Real::sqrt(speed / inverse);
+    let (peak, hold) = if triangular > limit {
+        (limit, (speed / limit - limit * inverse).max(0.0))
+    } else {
+        (triangular, 0.0)
+    };
+    let (rise, fall) = (peak / jerk.rising, peak / jerk.falling);
+    let sign = 1.0_f64.copysign(change);
+    let risen = Sample { jerk: sign * jerk.rising, ..Sample::default() }.advanced(rise);
+    let steady = Sample { acceleration: sign * peak, jerk: 0.0, ..risen };
+    // Centroid form of the distance: the speed gained in each part times the time left from its centroid.
+    let rest = hold + fall;
+    let way = 0.5 * peak * rise * (rest + rise / 3.0)
+        + peak * hold * (fall + 0.5 * hold)
+        + peak * fall * fall / 3.0;
+    let duration = rise + rest;
+    let after = Sample::cruising(sign * way, change);
+    Ramp {
+        ends: [rise, rise + hold, duration],
+        anchors: [0.0, rise, duration],
+        motions: [
+            Sample { jerk: sign * jerk.rising, ..Sample::default() },
+            steady,
+            Sample { jerk: -sign * jerk.falling, ..after },
+        ],
+        duration,
+        after,
+    }
+}
+
+/// The move as a step through three averages.
+fn symmetric_move(distance: f64, velocity: f64, acceleration: f64, jerk: f64) -> Piecewise<7> {
+    let length = distance.abs();
+    let (to_acceleration, to_velocity) = (acceleration / jerk, velocity / acceleration);
+    let (mut t3, mut t2) = if to_acceleration <= to_velocity {
+        (to_acceleration, to_velocity)
+    } else {
+        let both = Real::sqrt(velocity / jerk);
+        (both, both)
+    };
+    // Without a cruise t1 = t2 + t3, and h = a t2 (t2 + t3) or, with t2 = t3, h = 2 J t3^3.
+    let mut t1 = length / velocity;
+    if t1 < t2 + t3 {
+        if length >= 2.0 * acceleration * (to_acceleration * to_acceleration) {
+            t3 = to_acceleration;
+            let half = 0.5 * t3;
+            t2 = (Real::sqrt(half * half + length / acceleration) - half).max(t3);
+        } else {
+            t3 = Real::cbrt(length / (2.0 * jerk));
+            t2 = t3;
+        }
+        t1 = t2 + t3;
+    }
+    let sign = 1.0_f64.copysign(distance);
+    let peak = (jerk * t3).min(acceleration);
+    let speed = (peak * t2).min(velocity);
+    let signed_jerk = sign * jerk;
+    let signed_peak = sign * peak;
+    let after = Sample::cruising(0.5 * sign * speed * (t2 + t3), sign * speed);
+    let gained = 0.5 * signed_peak * t3;
+    let ramp = Ramp {
+        ends: [t3, t2, t2 + t3],
+        anchors: [0.0, t3, t2 + t3],
+        motions: [
+            Sample { jerk: signed_jerk, ..Sample::default() },
+            Sample { acceleration: signed_peak, ..Sample::cruising(gained * t3 * (1.0 / 3.0), gained) },
+            Sample { jerk: -signed_jerk, ..after },
+        ],
+        duration: t2 + t3,
+        after,
+    };
+    ramp.move_to(&ramp, t1, distance)
+}
+
+/// The move with ramps of different acceleration or with jerk that rises and falls differently.
+fn asymmetric_move(distance: f64, velocity: f64, up: f64, down: f64, jerk: Jerk) -> Piecewise<7> {
+    let length = distance.abs();
+    let way = |speed: f64| {
+        let (first, second) = (ramp(speed, up, jerk), ramp(speed, down, jerk));
+        first.after.position + second.after.position
+    };
+    let speed = if velocity < f64::INFINITY && way(velocity) <= length {
+        velocity
+    } else {
+        common_speed(length, up, down, jerk).min(velocity)
+    };
+    let sign = 1.0_f64.copysign(distance);
+    let (rising, falling) = (ramp(sign * speed, up, jerk), ramp(sign * speed, down, jerk));
+    let cruise = (length - rising.after.position.abs() - falling.after.position.abs()).max(0.0) / speed;
+    rising.move_to(&falling, rising.duration + cruise, distance)
+}
+
+/// The speed to which two ramps rise that cover `length` together.
+///
+/// The way of a triangular ramp is `G v^(3/2)`, `G = (1/Jr + 2/Jf) / (3 sqrt((1/Jr + 1/Jf)/2))`; a ramp that
+/// reaches its acceleration covers the quadratic of the type's documentation. Both rise with `v` and are convex.
+fn common_speed(length: f64, up: f64, down: f64, jerk: Jerk) -> f64 {
+    let (weaker, stronger) = (up.min(down), up.max(down));
+    let inverse = jerk.mean_inverse();
+    let g = (1.0 / jerk.rising + 2.0 / jerk.falling) / (3.0 * Real::sqrt(inverse));
+    // Both triangular: 2 G v^(3/2) = h.
+    let triangular = Real::cbrt((length / (2.0 * g)) * (length / (2.0 * g)));
+    if triangular <= weaker * weaker * inverse {
+        return triangular;
+    }
+    // Coefficients of v^2, v and 1 in the way of a ramp that reaches its acceleration.
+    let quadratic = |a: f64| {
+        let (rise, fall) = (a / jerk.rising, a / jerk.falling);
+        [0.5 / a, 0.5 * fall, a * (rise - fall) * (rise + fall) / 24.0]
+    };
+    let [w2, w1, w0] = quadratic(weaker);
+    if stronger < f64::INFINITY {
+        let [s2, s1, s0] = quadratic(stronger);
+        let (c2, c1, c0) = (w2 + s2, w1 + s1, w0 + s0 - length);
+        let root = Real::sqrt(c1 * c1 - 4.0 * c2 * c0);
+        // c0 <= 0 where both ramps are trapezoidal, so this form has no cancellation.
+        let trapezoidal = -2.0 * c0 / (c1 + root);
+        if trapezoidal >= stronger * stronger * inverse {
+            return trapezoidal;
+        }
+    }
+    // One of each: Newton's method from above falls monotonically on a convex function.
+    let mut v = (length / g) * (length / g);
+    v = Real::cbrt(v);
+    for _ in 0..64 {
+        let root = Real::sqrt(v);
+        let excess = g * v * root + (w2 * v + w1) * v + w0 - length;
+        let next = v - excess / (1.5 * g * root + 2.0 * w2 * v + w1);
+        if next.is_nan() || next >= v {
+            break;
+        }
+        v = next;
+    }
+    v
+}

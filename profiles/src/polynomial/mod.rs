@@ -1,0 +1,9 @@
+//! Motions made of sections with constant snap.
+
+mod extrema;
+mod piecewise;
+mod ramp;
+pub(crate) mod response;
+
+pub use piecewise::Piecewise;
+pub(crate) use ramp::Ramp;
