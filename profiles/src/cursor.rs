@@ -33,21 +33,23 @@ const MOST_TICKS: f64 = 9_007_199_254_740_992.0;
 pub struct Cursor<P, F> {
     profile: P,
     period: f64,
-    /// The tick that comes next.
-    tick: u64,
-    /// Ticks left before the motion must be expanded anew.
-    left: u32,
-    /// Ticks since the motion was expanded, and the period, in the precision of the tick.
-    since: F,
+    /// The tick about which the motion is expanded.
+    first: u64,
+    /// Ticks since then, and how many the expansion serves.
+    since: u32,
+    served: u32,
+    /// The period in the precision of the tick.
     step: F,
-    motion: Sample<F>,
-    /// The sine of the section: amplitude of its sine and cosine parts about the expansion, and `w`.
-    sine: Turning<F>,
+    motion: Expansion<F>,
 }
 
-/// `sine sin(w x) + cosine cos(w x)` in the position, as the phase of a section's sine at the expansion.
+/// A section about one tick: Taylor coefficients of the position and of its derivatives, and a sine.
 #[derive(Debug, Clone, Copy, Default)]
-struct Turning<F> {
+struct Expansion<F> {
+    /// Of position and velocity, highest power first: side by side, so that both take one vector instruction.
+    position_velocity: [[F; 2]; 5],
+    /// Of acceleration and jerk.
+    acceleration_jerk: [[F; 2]; 3],
     amplitude: F,
     phase: F,
     angular_frequency: F,
@@ -63,45 +65,44 @@ impl<P: Sectioned, F: Real> Cursor<P, F> {
         Ok(Self {
             profile,
             period,
-            tick: 0,
-            left: 0,
-            since: F::ZERO,
+            first: 0,
+            since: 0,
+            served: 0,
             step: F::from_f64(period),
-            motion: Sample::default(),
-            sine: Turning::default(),
+            motion: Expansion::default(),
         })
     }
 
     /// The motion at the present tick, then on to the next one.
     #[inline]
     pub fn tick(&mut self) -> Sample<F> {
-        if self.left == 0 {
+        if self.since >= self.served {
             self.expand();
         }
-        let x = self.since * self.step;
-        self.left -= 1;
-        self.tick = self.tick.wrapping_add(1);
-        self.since += F::ONE;
-        let motion = self.motion.advanced(x);
-        if P::HARMONIC { self.sine.added_to(motion, x) } else { motion }
+        // One integer is all that a tick carries to the next.
+        let x = F::from_u32(self.since) * self.step;
+        self.since += 1;
+        let sample = self.motion.at(x);
+        if P::HARMONIC { self.motion.with_sine(sample, x) } else { sample }
     }
 
     /// The number of the tick that comes next.
     #[must_use]
     pub fn next_tick(&self) -> u64 {
-        self.tick
+        self.first.wrapping_add(u64::from(self.since))
     }
 
     /// Goes to a tick, forward or back.
     pub fn seek(&mut self, tick: u64) {
-        self.tick = tick;
-        self.left = 0;
+        self.first = tick;
+        self.since = 0;
+        self.served = 0;
     }
 
     /// Whether the tick that comes next is at or after the end.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        self.tick as f64 * self.period >= self.profile.duration()
+        self.next_tick() as f64 * self.period >= self.profile.duration()
     }
 
     /// The profile.
@@ -114,49 +115,50 @@ impl<P: Sectioned, F: Real> Cursor<P, F> {
     #[cold]
     #[inline(never)]
     fn expand(&mut self) {
-        let now = self.tick as f64 * self.period;
-        let mut index = 0;
-        let section = loop {
-            match self.profile.section(index) {
-                Some(section) if section.end <= now => index += 1,
-                Some(section) => break Some(section),
-                None => break None,
-            }
-        };
-        let duration = self.profile.duration();
-        let (section, until) = match section {
-            Some(section) => (section, section.end),
-            None => {
-                (Section::polynomial(duration, f64::INFINITY, duration, self.profile.after()), f64::INFINITY)
-            }
-        };
-        let x = now - section.anchor;
-        let motion = section.polynomial.advanced(x);
-        self.motion = Sample {
-            position: F::from_f64(motion.position),
-            velocity: F::from_f64(motion.velocity),
-            acceleration: F::from_f64(motion.acceleration),
-            jerk: F::from_f64(motion.jerk),
-            snap: F::from_f64(motion.snap),
-        };
-        if P::HARMONIC {
-            self.sine = Turning {
-                amplitude: F::from_f64(section.amplitude),
-                phase: F::from_f64(section.angular_frequency * x),
-                angular_frequency: F::from_f64(section.angular_frequency),
-            };
-        }
-        // The cast saturates; a rounded quotient may leave one tick to the wrong side of a boundary by rounding,
-        // where both sides agree.
-        let ticks = Real::ceil((until - now) / self.period);
-        self.left = (ticks as u32).clamp(1, BLOCK);
-        self.since = F::ZERO;
+        self.first = self.next_tick();
+        self.since = 0;
+        let now = self.first as f64 * self.period;
+        let section = (0..).map_while(|k| self.profile.section(k)).find(|section| now < section.end);
+        let section = section.unwrap_or_else(|| {
+            let end = self.profile.duration();
+            Section::cruise(end, f64::INFINITY, self.profile.after())
+        });
+        self.motion = Expansion::about(now, &section);
+        // The cast saturates. A rounded quotient may leave a tick on the wrong side of a boundary by a rounding of
+        // its time; there both sides agree.
+        self.served = (Real::ceil((section.end - now) / self.period) as u32).clamp(1, BLOCK);
     }
 }
 
-impl<F: Real> Turning<F> {
+impl<F: Real> Expansion<F> {
+    fn about(now: f64, section: &Section) -> Self {
+        let x = section.local(now);
+        let Sample { position: p, velocity: v, acceleration: a, jerk: j, snap: s } =
+            section.polynomial.advanced(x);
+        let cast = F::from_f64;
+        Self {
+            position_velocity: [[s / 24.0, 0.0], [j / 6.0, s / 6.0], [a / 2.0, j / 2.0], [v, a], [p, v]]
+                .map(|pair| pair.map(cast)),
+            acceleration_jerk: [[s / 2.0, 0.0], [j, s], [a, j]].map(|pair| pair.map(cast)),
+            amplitude: cast(section.amplitude),
+            phase: cast(section.angular_frequency * x),
+            angular_frequency: cast(section.angular_frequency),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, x: F) -> Sample<F> {
+        let horner = |[a, b]: [F; 2], [c, d]: [F; 2]| [a * x + c, b * x + d];
+        let [c4, c3, c2, c1, c0] = self.position_velocity;
+        let [position, velocity] = horner(horner(horner(horner(c4, c3), c2), c1), c0);
+        let [d2, d1, d0] = self.acceleration_jerk;
+        let [acceleration, jerk] = horner(horner(d2, d1), d0);
+        let [_, snap] = d1;
+        Sample { position, velocity, acceleration, jerk, snap }
+    }
+
     #[inline]
-    fn added_to(self, motion: Sample<F>, x: F) -> Sample<F> {
+    fn with_sine(&self, motion: Sample<F>, x: F) -> Sample<F> {
         let w = self.angular_frequency;
         if w == F::ZERO { motion } else { with_sine(motion, self.amplitude, w, x + self.phase / w) }
     }

@@ -30,6 +30,21 @@ pub trait Profile {
     fn response(&self, p: Complex<f64>) -> Complex<f64>;
 }
 
+impl<P: Profile + ?Sized> Profile for &P {
+    fn duration(&self) -> f64 {
+        (**self).duration()
+    }
+    fn sample(&self, t: f64) -> Sample {
+        (**self).sample(t)
+    }
+    fn extrema(&self) -> Extrema {
+        (**self).extrema()
+    }
+    fn response(&self, p: Complex<f64>) -> Complex<f64> {
+        (**self).response(p)
+    }
+}
+
 /// The exact range of position and of every derivative over a profile.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

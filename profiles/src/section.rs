@@ -20,15 +20,33 @@ pub trait Sectioned: Profile {
     fn after(&self) -> Sample;
 }
 
-/// One section: `polynomial(t - anchor) + amplitude sin(w (t - anchor))` for `start <= t < end`.
+impl<P: Sectioned> Sectioned for &P {
+    const HARMONIC: bool = P::HARMONIC;
+    fn section(&self, index: usize) -> Option<Section> {
+        (**self).section(index)
+    }
+    fn before(&self) -> Sample {
+        (**self).before()
+    }
+    fn after(&self) -> Sample {
+        (**self).after()
+    }
+}
+
+/// One section: `polynomial(x) + amplitude sin(w x)` of the local time `x = t - anchor`, for `start <= t < end`.
+///
+/// An instant `t` far from zero is coarser than a short section. The local time is therefore kept within
+/// `[0, reach]` (or `[reach, 0]`), so that no value leaves the range it was planned for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
     /// First instant of the section, s.
     pub start: f64,
     /// End of the section, s.
     pub end: f64,
-    /// Time about which the section is expanded, s.
+    /// Time about which the section is expanded, s: its start or its end.
     pub anchor: f64,
+    /// Planned length, s: positive where the anchor is the start, negative where it is the end.
+    pub reach: f64,
     /// The polynomial part at the anchor.
     pub polynomial: Sample,
     /// Amplitude of the sine in the position, m.
@@ -38,23 +56,56 @@ pub struct Section {
 }
 
 impl Section {
-    /// A section without a sine.
+    /// A section of constant velocity from `start` to `end`.
     #[must_use]
-    pub fn polynomial(start: f64, end: f64, anchor: f64, polynomial: Sample) -> Self {
-        Self { start, end, anchor, polynomial, amplitude: 0.0, angular_frequency: 0.0 }
+    pub(crate) fn cruise(start: f64, end: f64, motion: Sample) -> Self {
+        let reach = end - start;
+        Self { start, end, anchor: start, reach, polynomial: motion, amplitude: 0.0, angular_frequency: 0.0 }
     }
 
-    /// The motion at time `t`, s, the section's formula going on outside it.
+    /// The local time of the instant `t`, s.
+    #[must_use]
+    pub fn local(&self, t: f64) -> f64 {
+        local_time(t, self.anchor, self.reach)
+    }
+
+    /// The motion at the instant `t`, s; that of the nearer end outside the section.
     #[must_use]
     pub fn at(&self, t: f64) -> Sample {
-        let x = t - self.anchor;
-        with_sine(self.polynomial.advanced(x), self.amplitude, self.angular_frequency, x)
+        self.at_local(self.local(t))
     }
 
-    /// Length of the section, s.
+    /// Length, s.
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.end - self.start
+        self.reach.abs()
+    }
+
+    /// Local time of the start and of the end, s.
+    #[must_use]
+    pub fn local_ends(&self) -> (f64, f64) {
+        (self.reach.min(0.0), self.reach.max(0.0))
+    }
+
+    /// The motion at the local time `x`, s.
+    #[must_use]
+    pub fn at_local(&self, x: f64) -> Sample {
+        with_sine(self.polynomial.advanced(x), self.amplitude, self.angular_frequency, x)
+    }
+}
+
+/// `t - anchor`, brought into the section.
+#[inline]
+pub(crate) fn local_time(t: f64, anchor: f64, reach: f64) -> f64 {
+    // Comparisons in this order need no NaN handling: an instant is never NaN here.
+    let x = t - anchor;
+    let (from, to) = if reach < 0.0 { (reach, 0.0) } else { (0.0, reach) };
+    if x < from {
+        from
+    } else if x > to {
+        to
+    } else {
+        x
     }
 }
 

@@ -38,6 +38,11 @@ impl Stretch {
         if t < self.shortest { (t * self.ratio).min(self.duration) } else { self.duration }
     }
 
+    /// What a length of time becomes, s.
+    pub(crate) fn length(&self, length: f64) -> f64 {
+        length * self.ratio
+    }
+
     /// Where a motion goes.
     pub(crate) fn motion(&self, motion: Sample) -> Sample {
         let (position, speed) = self.scales();

@@ -93,15 +93,17 @@ where
             Some(value) => writeln!(out, "_{what} {value:e}f")?,
         }
     }
-    let columns: [(&str, &str, fn(&Sample) -> f64); 3] = [
-        ("position", "m", |s| s.position),
-        ("velocity", "m/s", |s| s.velocity),
-        ("acceleration", "m/s^2", |s| s.acceleration),
-    ];
-    for (column, unit, value) in columns {
+    for (order, (column, unit)) in
+        [("position", "m"), ("velocity", "m/s"), ("acceleration", "m/s^2")].into_iter().enumerate()
+    {
         writeln!(out, "\n/* {column}, {unit} */\nstatic const float {name}_{column}[{rows}] = {{")?;
         for row in 0..rows {
-            let sample = profile.sample(f64::from(row) * period);
+            let Sample { position, velocity, acceleration, .. } = profile.sample(f64::from(row) * period);
+            let value = match order {
+                0 => position,
+                1 => velocity,
+                _ => acceleration,
+            };
             let separator = if row + 1 == rows {
                 "\n};\n"
             } else if row % 4 == 3 {
@@ -109,7 +111,7 @@ where
             } else {
                 ", "
             };
-            write!(out, "{:e}f{separator}", value(&sample) as f32)?;
+            write!(out, "{:e}f{separator}", value as f32)?;
         }
     }
     Ok(())

@@ -64,7 +64,7 @@ impl Cosine {
         Ok(Self {
             sections: [
                 wave.section(0.0, ramp, 0.0, 0.0),
-                Section::polynomial(ramp, down_start, ramp, cruise),
+                Section::cruise(ramp, down_start, cruise),
                 wave.section(down_start, duration, duration, distance),
             ],
             before: Sample::default(),
@@ -88,7 +88,7 @@ impl Cosine {
         }
         let ramp = representable("ramp", bounds.ramp_time(change.abs()))?;
         let after = Sample::cruising(0.5 * (from + to) * ramp, to);
-        let rest = Section::polynomial(ramp, ramp, ramp, after);
+        let rest = Section::cruise(ramp, ramp, after);
         Ok(Self {
             sections: [Wave { change, from, ramp }.section(0.0, ramp, 0.0, 0.0), rest, rest],
             before: Sample::cruising(0.0, from),
@@ -110,6 +110,7 @@ impl Cosine {
                 start,
                 end,
                 anchor,
+                reach: stretch.length(s.reach),
                 polynomial: stretch.motion(s.polynomial),
                 amplitude: s.amplitude * position,
                 angular_frequency: s.angular_frequency * (speed / position),
@@ -124,7 +125,7 @@ impl Cosine {
     }
 
     fn empty(motion: Sample) -> Self {
-        let nothing = Section::polynomial(0.0, 0.0, 0.0, motion);
+        let nothing = Section::cruise(0.0, 0.0, motion);
         Self { sections: [nothing; 3], before: motion, after: motion, change: 0.0 }
     }
 
@@ -148,9 +149,13 @@ impl Wave {
         let w = PI / self.ramp;
         let half = 0.5 * self.change;
         Section {
+            start,
+            end,
+            anchor,
+            reach: if anchor > start { -self.ramp } else { self.ramp },
+            polynomial: Sample::cruising(position, self.from + half),
             amplitude: -half / w,
             angular_frequency: w,
-            ..Section::polynomial(start, end, anchor, Sample::cruising(position, self.from + half))
         }
     }
 }
@@ -187,10 +192,10 @@ impl Profile for Cosine {
         if t >= 0.0 {
             match self.sections.iter().find(|section| t < section.end) {
                 Some(section) => section.at(t),
-                None => self.after.advanced(t - self.duration()),
+                None => self.after.coasted(t - self.duration()),
             }
         } else {
-            self.before.advanced(if t < 0.0 { t } else { 0.0 })
+            self.before.coasted(if t < 0.0 { t } else { 0.0 })
         }
     }
 
@@ -203,7 +208,7 @@ impl Profile for Cosine {
         if from * to < 0.0 {
             // The velocity changes sign where cos(w t) = 1 + 2 v0 / dv.
             let turn = libm::acos((1.0 + 2.0 * from / self.change).clamped(-1.0, 1.0)) / w;
-            position = position.including(self.rise().at(turn).position);
+            position = position.including(self.rise().at_local(turn).position);
         }
         let one_way = nothing.including(peak);
         let move_to_rest = self.sections.iter().filter(|section| section.amplitude != 0.0).count() == 2;

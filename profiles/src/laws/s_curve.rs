@@ -50,10 +50,8 @@ impl SCurve {
         };
         // Every candidate is verified: the sections must add up to the distance.
         representable("duration", plan.duration)?;
-        let [_, _, _, cruise, ..] = plan.motions;
-        let [_, _, rising_end, cruise_end, ..] = plan.ends;
-        let met = cruise.position + cruise.velocity * (cruise_end - rising_end);
-        let [_, _, _, _, falling, ..] = plan.motions;
+        let ([_, _, _, cruise, falling, ..], [_, _, _, reach, ..]) = (plan.motions, plan.reaches);
+        let met = cruise.advanced(reach).position;
         if (met - falling.position).abs() <= 1e-12 * distance.abs() {
             Ok(Self(plan))
         } else {
@@ -76,7 +74,7 @@ impl SCurve {
         }
         let ramp = ramp(change, along.acceleration().upper, jerk);
         representable("duration", ramp.duration)?;
-        Ok(Self(ramp.from_speed(from, to)))
+        Ok(Self(ramp.on_top_of(from, to)))
     }
 }
 
@@ -125,6 +123,7 @@ fn ramp(change: f64, limit: f64, jerk: Jerk) -> Ramp<3> {
     Ramp {
         ends: [rise, rise + hold, duration],
         anchors: [0.0, rise, duration],
+        reaches: [rise, hold, -fall],
         motions: [
             Sample { jerk: sign * jerk.rising, ..Sample::default() },
             steady,
@@ -168,6 +167,7 @@ fn symmetric_move(distance: f64, velocity: f64, acceleration: f64, jerk: f64) ->
     let ramp = Ramp {
         ends: [t3, t2, t2 + t3],
         anchors: [0.0, t3, t2 + t3],
+        reaches: [t3, t2 - t3, -t3],
         motions: [
             Sample { jerk: signed_jerk, ..Sample::default() },
             Sample { acceleration: signed_peak, ..Sample::cruising(gained * t3 * (1.0 / 3.0), gained) },

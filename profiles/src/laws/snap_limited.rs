@@ -15,7 +15,7 @@ use crate::quantities::{Limits, Real, Sample};
 ///
 /// The jerk vanishes where the acceleration does. A velocity ramp is the fastest one within the limits; a move
 /// that cruises is made of two such ramps. A move too short to cruise could be faster if its jerk need not vanish
-/// half way: by 7.3 % where no limit but that of snap is met.
+/// half way: by 6.9 % where no limit but that of snap is met.
 ///
 /// # References
 /// P. Lambrechts, M. Boerlage, M. Steinbuch, Trajectory planning and feedforward design for electromechanical
@@ -67,7 +67,7 @@ impl SnapLimited {
         let ramp = bounds.ramp(bounds.averages(f64::INFINITY), 1.0_f64.copysign(change));
         representable("duration", ramp.duration)?;
         if (ramp.after.velocity - change).abs() <= 1e-12 * change.abs() {
-            Ok(Self(ramp.from_speed(from, to)))
+            Ok(Self(ramp.on_top_of(from, to)))
         } else {
             Err(PlanError::Range { quantity: "speed", value: ramp.after.velocity })
         }
@@ -166,6 +166,7 @@ impl Bounds {
         Ramp {
             ends: [t4, t3, rise, t2, late, t2 + t3, duration],
             anchors: [0.0, t4, rise, rise, t2, late, duration],
+            reaches: [t4, t3 - t4, -t4, t2 - rise, t4, t3 - t4, -t4],
             motions: [
                 rising,
                 risen,

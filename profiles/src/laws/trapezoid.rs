@@ -92,6 +92,7 @@ impl Trapezoid {
         Ok(Self(Piecewise {
             ends: [rise, rise + cruise, duration],
             anchors: [0.0, rise, duration],
+            reaches: [rise, cruise, -fall],
             motions: [
                 motion(0.0, start_speed, up),
                 motion(sign * risen, speed, 0.0),
@@ -122,6 +123,7 @@ impl Trapezoid {
         Ok(Self(Piecewise {
             ends: [duration; 3],
             anchors: [0.0, duration, duration],
+            reaches: [duration, 0.0, 0.0],
             motions: [motion, after, after],
             before: Sample::cruising(0.0, from),
             after,

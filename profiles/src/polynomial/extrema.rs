@@ -10,13 +10,13 @@ const NOTHING: Interval = Interval { lower: f64::INFINITY, upper: f64::NEG_INFIN
 pub(crate) fn over<const N: usize>(profile: &Piecewise<N>) -> Extrema {
     let mut extrema =
         Extrema { position: NOTHING, velocity: NOTHING, acceleration: NOTHING, jerk: NOTHING, snap: NOTHING };
-    let mut sections = (0..N).filter_map(|k| profile.section(k)).filter(|s| s.end > s.start).peekable();
+    let mut sections = (0..N).filter_map(|k| profile.section(k)).filter(|s| s.length() > 0.0).peekable();
     if sections.peek().is_none() {
         include(&mut extrema, &profile.before());
     }
     for section in sections {
-        // Expand about the anchor: one of the ends is then exact.
-        let (from, to) = (section.start - section.anchor, section.end - section.anchor);
+        // In local time one of the ends is exact.
+        let (from, to) = section.local_ends();
         let motion = section.polynomial;
         include(&mut extrema, &motion.advanced(from));
         include(&mut extrema, &motion.advanced(to));
@@ -98,10 +98,11 @@ mod tests {
     fn turning_points_inside_a_section_are_found() {
         // p = t^4/24 - t^2/2 on [-3, 3]: extrema of every derivative are known by hand.
         let motion = Sample { acceleration: -1.0, snap: 1.0, ..Sample::default() };
-        let profile = Piecewise::<1> {
-            ends: [6.0],
-            anchors: [3.0],
-            motions: [motion],
+        let profile = Piecewise::<2> {
+            ends: [3.0, 6.0],
+            anchors: [3.0, 3.0],
+            reaches: [-3.0, 3.0],
+            motions: [motion; 2],
             before: Sample::default(),
             after: Sample::default(),
             duration: 6.0,

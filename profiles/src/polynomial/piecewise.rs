@@ -6,7 +6,7 @@ use super::{extrema, response};
 use crate::error::PlanError;
 use crate::profile::{Extrema, Profile};
 use crate::quantities::Sample;
-use crate::section::{Section, Sectioned};
+use crate::section::{Section, Sectioned, local_time};
 use crate::stretch::Stretch;
 
 /// A profile of at most `N` sections with constant snap in each.
@@ -20,6 +20,8 @@ pub struct Piecewise<const N: usize> {
     pub(crate) ends: [f64; N],
     /// Time about which each section is expanded, s.
     pub(crate) anchors: [f64; N],
+    /// Planned length of each section, s, negative where the anchor is its end.
+    pub(crate) reaches: [f64; N],
     /// Motion of each section at its anchor.
     pub(crate) motions: [Sample; N],
     /// The motion before the start, at the start.
@@ -32,7 +34,15 @@ pub struct Piecewise<const N: usize> {
 impl<const N: usize> Piecewise<N> {
     /// A motion of no duration at `position`.
     pub(crate) fn empty(before: Sample) -> Self {
-        Self { ends: [0.0; N], anchors: [0.0; N], motions: [before; N], before, after: before, duration: 0.0 }
+        Self {
+            ends: [0.0; N],
+            anchors: [0.0; N],
+            reaches: [0.0; N],
+            motions: [before; N],
+            before,
+            after: before,
+            duration: 0.0,
+        }
     }
 
     /// The same motion in a longer time.
@@ -48,6 +58,7 @@ impl<const N: usize> Piecewise<N> {
         Ok(Self {
             ends: self.ends.map(|t| stretch.time(t)),
             anchors: self.anchors.map(|t| stretch.time(t)),
+            reaches: self.reaches.map(|x| stretch.length(x)),
             motions: self.motions.map(|m| stretch.motion(m)),
             before: stretch.motion(self.before),
             after: stretch.motion(self.after),
@@ -65,12 +76,12 @@ impl<const N: usize> Profile for Piecewise<N> {
     fn sample(&self, t: f64) -> Sample {
         if t >= 0.0 {
             let index: usize = self.ends.iter().map(|end| usize::from(*end <= t)).sum();
-            match (self.motions.get(index), self.anchors.get(index)) {
-                (Some(motion), Some(anchor)) => motion.advanced(t - anchor),
-                _ => self.after.advanced(t - self.duration),
+            match (self.motions.get(index), self.anchors.get(index), self.reaches.get(index)) {
+                (Some(motion), Some(anchor), Some(reach)) => motion.advanced(local_time(t, *anchor, *reach)),
+                _ => self.after.coasted(t - self.duration),
             }
         } else {
-            self.before.advanced(if t < 0.0 { t } else { 0.0 })
+            self.before.coasted(if t < 0.0 { t } else { 0.0 })
         }
     }
 
@@ -91,12 +102,15 @@ impl<const N: usize> Sectioned for Piecewise<N> {
             Some(previous) => *self.ends.get(previous)?,
             None => 0.0,
         };
-        Some(Section::polynomial(
+        Some(Section {
             start,
-            *self.ends.get(index)?,
-            *self.anchors.get(index)?,
-            *self.motions.get(index)?,
-        ))
+            end: *self.ends.get(index)?,
+            anchor: *self.anchors.get(index)?,
+            reach: *self.reaches.get(index)?,
+            polynomial: *self.motions.get(index)?,
+            amplitude: 0.0,
+            angular_frequency: 0.0,
+        })
     }
 
     fn before(&self) -> Sample {

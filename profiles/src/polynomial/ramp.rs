@@ -10,6 +10,8 @@ pub(crate) struct Ramp<const M: usize> {
     pub(crate) ends: [f64; M],
     /// Time about which each section is expanded, s.
     pub(crate) anchors: [f64; M],
+    /// Length of each section, s, negative where the anchor is its end.
+    pub(crate) reaches: [f64; M],
     /// Motion of each section at its anchor.
     pub(crate) motions: [Sample; M],
     /// Duration, s.
@@ -34,13 +36,16 @@ impl<const M: usize> Ramp<M> {
         let duration = down_start + down.duration;
         let mut ends = [duration; N];
         let mut anchors = [self.duration; N];
+        let mut reaches = [down_start - self.duration; N];
         let mut motions = [self.after; N];
         for k in 0..M {
-            (ends[k], anchors[k], motions[k]) = (self.ends[k], self.anchors[k], self.motions[k]);
+            (ends[k], anchors[k]) = (self.ends[k], self.anchors[k]);
+            (reaches[k], motions[k]) = (self.reaches[k], self.motions[k]);
             // Seen from the end, the last section is the first one of the mirrored ramp.
             let last = N - 1 - k;
             let mirrored = &down.motions[k];
             anchors[last] = down_start + (down.duration - down.anchors[k]);
+            reaches[last] = -down.reaches[k];
             motions[last] = Sample {
                 position: distance - mirrored.position,
                 velocity: mirrored.velocity,
@@ -56,6 +61,7 @@ impl<const M: usize> Ramp<M> {
         Piecewise {
             ends,
             anchors,
+            reaches,
             motions,
             before: Sample::default(),
             after: Sample::at_rest(distance),
@@ -65,7 +71,7 @@ impl<const M: usize> Ramp<M> {
 
     /// The ramp alone, on top of the speed `from`, m/s, ending with the speed `to`.
     #[inline]
-    pub(crate) fn from_speed<const N: usize>(&self, from: f64, to: f64) -> Piecewise<N> {
+    pub(crate) fn on_top_of<const N: usize>(&self, from: f64, to: f64) -> Piecewise<N> {
         const { assert!(N >= M) };
         let on_top = |motion: &Sample, t: f64| Sample {
             position: motion.position + from * t,
@@ -75,12 +81,13 @@ impl<const M: usize> Ramp<M> {
         let after = Sample::cruising(on_top(&self.after, self.duration).position, to);
         let mut ends = [self.duration; N];
         let mut anchors = [self.duration; N];
+        let mut reaches = [0.0; N];
         let mut motions = [after; N];
         for k in 0..M {
-            (ends[k], anchors[k]) = (self.ends[k], self.anchors[k]);
+            (ends[k], anchors[k], reaches[k]) = (self.ends[k], self.anchors[k], self.reaches[k]);
             motions[k] = on_top(&self.motions[k], self.anchors[k]);
         }
         let before = Sample::cruising(0.0, from);
-        Piecewise { ends, anchors, motions, before, after, duration: self.duration }
+        Piecewise { ends, anchors, reaches, motions, before, after, duration: self.duration }
     }
 }

@@ -3,7 +3,6 @@
 use num_complex::Complex;
 
 use crate::complex;
-use crate::quantities::Real;
 use crate::section::{Section, Sectioned};
 
 /// `1 / k!` for `k` from 0 to 4.
@@ -23,11 +22,12 @@ pub(crate) fn over<S: Sectioned>(profile: &S, p: Complex<f64>) -> Complex<f64> {
     let mut index = 0;
     while let Some(section) = profile.section(index) {
         index += 1;
-        if section.end <= section.start {
+        if section.length() <= 0.0 {
             continue;
         }
-        first.get_or_insert_with(|| section.at(section.start).velocity);
-        last = section.at(section.end).velocity;
+        let (from, to) = section.local_ends();
+        first.get_or_insert_with(|| section.at_local(from).velocity);
+        last = section.at_local(to).velocity;
         let integral = if from_velocity {
             velocity_integral(&section, before, p)
         } else {
@@ -45,7 +45,7 @@ pub(crate) fn over<S: Sectioned>(profile: &S, p: Complex<f64>) -> Complex<f64> {
 
 /// `integral over the section of a(u) e^(p (end - u)) du`.
 fn acceleration_integral(section: &Section, p: Complex<f64>) -> Complex<f64> {
-    let start = section.polynomial.advanced(section.start - section.anchor);
+    let start = section.polynomial.advanced(section.local_ends().0);
     let w = section.angular_frequency;
     polynomial_integral([start.acceleration, start.jerk, start.snap, 0.0], section.length(), p)
         + sine_integrals(section, p).0 * (-section.amplitude * w * w)
@@ -53,7 +53,7 @@ fn acceleration_integral(section: &Section, p: Complex<f64>) -> Complex<f64> {
 
 /// `integral over the section of (v(u) - v_before) e^(p (end - u)) du`.
 fn velocity_integral(section: &Section, before: f64, p: Complex<f64>) -> Complex<f64> {
-    let start = section.polynomial.advanced(section.start - section.anchor);
+    let start = section.polynomial.advanced(section.local_ends().0);
     let coefficients = [start.velocity - before, start.acceleration, start.jerk, start.snap];
     polynomial_integral(coefficients, section.length(), p)
         + sine_integrals(section, p).1 * (section.amplitude * section.angular_frequency)
@@ -80,7 +80,7 @@ fn sine_integrals(section: &Section, p: Complex<f64>) -> (Complex<f64>, Complex<
     // integral from 0 to d of e^(q (x + x0)) e^(p (d - x)) dx = e^(q (d + x0)) d phi_1((p - q) d), q = -+ i w.
     let turning = |q: Complex<f64>| {
         let [phi_1, ..] = phi_functions((p - q) * d);
-        complex::exp(q * (section.end - section.anchor)) * phi_1 * d
+        complex::exp(q * section.local_ends().1) * phi_1 * d
     };
     let (ahead, behind) = (turning(i * section.angular_frequency), turning(-i * section.angular_frequency));
     ((ahead - behind) / (2.0 * i), (ahead + behind) * 0.5)
@@ -110,6 +110,7 @@ fn phi_functions(z: Complex<f64>) -> [Complex<f64>; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quantities::Real;
 
     #[test]
     fn phi_functions_meet_where_series_and_recurrence_change_over() {

@@ -48,6 +48,8 @@ pub trait Real:
 
     /// The nearest number of this type.
     fn from_f64(value: f64) -> Self;
+    /// The nearest number of this type.
+    fn from_u32(value: u32) -> Self;
     /// The same number in double precision.
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.
@@ -113,6 +115,10 @@ macro_rules! real {
 
             #[inline]
             fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+            #[inline]
+            fn from_u32(value: u32) -> Self {
                 value as $float
             }
             #[inline]
