@@ -1,1 +1,13 @@
+#![no_std]
 #![doc = include_str!("../README.md")]
+
+mod error;
+mod feedforward;
+mod pid;
+
+pub use error::{FeedforwardError, PidError};
+pub use feedforward::Feedforward;
+pub use pid::{AntiWindup, DerivativeOn, PidConfig, PidGains, PidInput, PidOutput, PidState, Status};
+
+#[cfg(test)]
+extern crate std;

@@ -1,0 +1,51 @@
+//! Configurations are checked when they are read.
+#![cfg(feature = "serde")]
+
+use control::{AntiWindup, DerivativeOn, Feedforward, PidConfig, PidGains};
+
+#[test]
+fn a_configuration_comes_back_as_it_was() {
+    let gains = PidGains { kp: 0.1, ki: 3.0, kd: -0.0 };
+    let plain = PidConfig::new(gains, 1e-3).expect("valid");
+    let full = plain
+        .with_derivative_on(DerivativeOn::Measurement)
+        .with_derivative_filter(0.01)
+        .and_then(|p| p.with_output_limits(f64::NEG_INFINITY, 2.0))
+        .and_then(|p| p.with_anti_windup(AntiWindup::BackCalculation { tracking_time: 0.3 }))
+        .expect("valid");
+    for pid in [plain, full] {
+        let text = serde_json::to_string(&pid).expect("writes");
+        assert_eq!(serde_json::from_str::<PidConfig>(&text).expect(&text), pid);
+    }
+}
+
+#[test]
+fn what_is_absent_has_its_default_and_what_is_wrong_is_refused() {
+    let read = |text: &str| serde_json::from_str::<PidConfig<f32>>(text);
+    let gains = r#""gains": {"kp": 1, "ki": 2, "kd": 0}"#;
+    let pid = read(&format!(r#"{{{gains}, "period": 0.5, "upper": 3}}"#)).expect("valid");
+    assert_eq!(pid.anti_windup(), AntiWindup::Clamping);
+    assert_eq!(pid.output_limits(), (f32::NEG_INFINITY, 3.0));
+
+    let back = r#"{"back_calculation": {"tracking_time": -1}}"#;
+    for (rest, reason) in [
+        (r#""period": 0"#.to_owned(), "period"),
+        (r#""period": 1, "lower": 2, "upper": 1"#.to_owned(), "limit"),
+        (r#""period": 1, "derivative_filter": -2"#.to_owned(), "filter"),
+        (format!(r#""period": 1, "anti_windup": {back}"#), "tracking"),
+        (r#""period": 1, "uper": 2"#.to_owned(), "uper"),
+    ] {
+        let error = read(&format!("{{{gains}, {rest}}}")).expect_err(&rest).to_string();
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
+#[test]
+fn a_feedforward_is_checked() {
+    let feedforward = Feedforward::two_mass(1.0, 2.0, 300.0, 4.0).expect("valid");
+    let text = serde_json::to_string(&feedforward).expect("writes");
+    assert_eq!(serde_json::from_str::<Feedforward>(&text).expect("reads"), feedforward);
+    let mass = serde_json::from_str::<Feedforward>(r#"{"acceleration": 2}"#).expect("reads");
+    assert_eq!(mass, Feedforward::rigid(2.0, 0.0).expect("valid"));
+    assert!(serde_json::from_str::<Feedforward<f32>>(r#"{"acceleration": 1e39}"#).is_err(), "beyond f32");
+}
