@@ -1,6 +1,6 @@
 //! One PID tick, in f64 and f32, beside a loop written by hand without checks.
 
-use control::{AntiWindup, PidConfig, PidGains, PidInput, PidState};
+use control::{AntiWindup, Pid, PidGains, PidInput, PidState};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -38,7 +38,7 @@ macro_rules! bench_ticks {
                 })
                 .collect();
             let gains = PidGains { kp: 20.0, ki: 50.0, kd: 0.1 };
-            let pid = PidConfig::<$real>::new(gains, 1e-3)
+            let pid = Pid::<$real>::new(gains, 1e-3)
                 .and_then(|p| p.with_derivative_filter(5e-3))
                 .and_then(|p| p.with_output_limits(-10.0, 10.0))
                 .expect("valid");

@@ -1,6 +1,6 @@
 //! A mass moved over 0.2 m in half a second against friction and a load that the feedforward does not know.
 
-use control::{Feedforward, PidConfig, PidGains, PidInput, PidState};
+use control::{Feedforward, Pid, PidGains, PidInput, PidState};
 use profiles::Sample;
 
 /// Rest to rest over `distance` in m within `duration` in s: `10 s^3 - 15 s^4 + 6 s^5`.
@@ -14,7 +14,7 @@ fn reference(t: f64, distance: f64, duration: f64) -> Sample {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (period, mass, damping, load) = (1e-3, 2.0, 15.0, 6.0);
-    let pid = PidConfig::new(PidGains { kp: 8e3, ki: 6e4, kd: 180.0 }, period)?
+    let pid = Pid::new(PidGains { kp: 8e3, ki: 6e4, kd: 180.0 }, period)?
         .with_derivative_filter(2e-3)?
         .with_output_limits(-60.0, 60.0)?;
 

@@ -157,7 +157,7 @@ impl<F: Real> Feedforward<F> {
     }
 
     /// The force for `reference`, N (N m for an angle); not finite where the reference is not, which
-    /// [`PidConfig::update`](crate::PidConfig::update) answers by holding its output.
+    /// [`Pid::update`](crate::Pid::update) answers by holding its output.
     #[inline]
     #[must_use]
     pub fn force(&self, reference: &Sample<F>) -> F {

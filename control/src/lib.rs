@@ -7,7 +7,7 @@ mod pid;
 
 pub use error::{FeedforwardError, PidError};
 pub use feedforward::Feedforward;
-pub use pid::{AntiWindup, DerivativeOn, PidConfig, PidGains, PidInput, PidOutput, PidState, Status};
+pub use pid::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidOutput, PidState, Status};
 
 #[cfg(test)]
 extern crate std;

@@ -2,13 +2,13 @@
 #![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 #![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
-use control::{AntiWindup, DerivativeOn, PidConfig, PidGains, PidInput, PidState, Status};
+use control::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidState, Status};
 
 const TRACKING_TIME: f64 = 0.2;
 const BACK_CALCULATION: AntiWindup = AntiWindup::BackCalculation { tracking_time: TRACKING_TIME };
 
-fn pid(period: f64, anti_windup: AntiWindup) -> PidConfig {
-    PidConfig::new(PidGains { kp: 2.0, ki: 5.0, kd: 0.0 }, period)
+fn pid(period: f64, anti_windup: AntiWindup) -> Pid {
+    Pid::new(PidGains { kp: 2.0, ki: 5.0, kd: 0.0 }, period)
         .and_then(|p| p.with_output_limits(-1.0, 1.0))
         .and_then(|p| p.with_anti_windup(anti_windup))
         .expect("valid")
@@ -79,7 +79,7 @@ fn back_calculation_tends_to_the_exponential() {
 #[test]
 fn back_calculation_follows_the_realised_output() {
     // No limit of its own; the actuator is left with 0.5.
-    let pid = PidConfig::new(PidGains { kp: 2.0, ki: 5.0, kd: 0.0 }, 0.01)
+    let pid = Pid::new(PidGains { kp: 2.0, ki: 5.0, kd: 0.0 }, 0.01)
         .and_then(|p| p.with_anti_windup(BACK_CALCULATION))
         .expect("valid");
     let mut state = PidState::new();
@@ -96,7 +96,7 @@ fn back_calculation_follows_the_realised_output() {
 fn clamping_bounds_the_integral_for_any_sign_of_the_gain() {
     for sign in [1.0, -1.0] {
         let gains = PidGains { kp: 0.0, ki: 5.0 * sign, kd: 0.0 };
-        let pid = PidConfig::new(gains, 0.01).and_then(|p| p.with_output_limits(-1.0, 2.0)).expect("valid");
+        let pid = Pid::new(gains, 0.01).and_then(|p| p.with_output_limits(-1.0, 2.0)).expect("valid");
         let mut state = PidState::new();
         for _ in 0..1000 {
             let _ = pid.update(&mut state, PidInput::new(sign * 1e6, 0.0));
@@ -110,7 +110,7 @@ fn clamping_bounds_the_integral_for_any_sign_of_the_gain() {
 #[test]
 fn a_bias_does_not_drift_without_an_integral_gain() {
     let gains = PidGains { kp: 2.0, ki: 0.0, kd: 0.0 };
-    let pid = PidConfig::new(gains, 0.01)
+    let pid = Pid::new(gains, 0.01)
         .and_then(|p| p.with_output_limits(-1.0, 1.0))
         .and_then(|p| p.with_anti_windup(BACK_CALCULATION))
         .expect("valid");
@@ -124,7 +124,7 @@ fn a_bias_does_not_drift_without_an_integral_gain() {
 #[test]
 fn a_derivative_on_the_measurement_has_no_kick() {
     let with = |kd| {
-        PidConfig::new(PidGains { kp: 2.0, ki: 5.0, kd }, 0.01)
+        Pid::new(PidGains { kp: 2.0, ki: 5.0, kd }, 0.01)
             .expect("valid")
             .with_derivative_on(DerivativeOn::Measurement)
     };

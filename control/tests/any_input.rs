@@ -1,6 +1,6 @@
 //! Whatever comes in, what goes out is finite and within the limits, and a bad sample leaves no trace.
 
-use control::{AntiWindup, DerivativeOn, PidConfig, PidGains, PidInput, PidState, Status};
+use control::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidState, Status};
 use proptest::prelude::*;
 
 macro_rules! any_input {
@@ -31,14 +31,14 @@ macro_rules! any_input {
                 ]
             }
 
-            fn any_config() -> impl Strategy<Value = PidConfig<$real>> {
+            fn any_config() -> impl Strategy<Value = Pid<$real>> {
                 let gains = (any_number(), any_number(), any_number());
                 let limits = (any_number(), any_number());
                 (gains, any_time(), any_time(), limits, any_anti_windup(), any::<bool>()).prop_filter_map(
                     "a valid configuration",
                     |((kp, ki, kd), period, tau, (lower, upper), anti_windup, measurement)| {
                         let on = if measurement { DerivativeOn::Measurement } else { DerivativeOn::Error };
-                        PidConfig::new(PidGains { kp, ki, kd }, period)
+                        Pid::new(PidGains { kp, ki, kd }, period)
                             .and_then(|p| p.with_derivative_filter(tau))
                             .and_then(|p| p.with_output_limits(lower, upper))
                             .and_then(|p| p.with_anti_windup(anti_windup))
@@ -49,11 +49,11 @@ macro_rules! any_input {
             }
 
             /// Gains and limits of an ordinary axis.
-            fn usual_config() -> impl Strategy<Value = PidConfig<$real>> {
+            fn usual_config() -> impl Strategy<Value = Pid<$real>> {
                 (-1e3 as $real..1e3, -1e3 as $real..1e3, -1.0 as $real..1.0, any_anti_windup()).prop_filter_map(
                     "a valid configuration",
                     |(kp, ki, kd, anti_windup)| {
-                        PidConfig::new(PidGains { kp, ki, kd }, 1e-3)
+                        Pid::new(PidGains { kp, ki, kd }, 1e-3)
                             .and_then(|p| p.with_output_limits(-10.0, 20.0))
                             .and_then(|p| p.with_anti_windup(anti_windup))
                             .ok()
@@ -92,11 +92,11 @@ macro_rules! any_input {
             /// Runs `events`, changing between two configurations, and checks every answer; the configuration in
             /// force at the end.
             fn run(
-                first: PidConfig<$real>,
-                second: PidConfig<$real>,
+                first: Pid<$real>,
+                second: Pid<$real>,
                 state: &mut PidState<$real>,
                 events: Vec<Event>,
-            ) -> Result<PidConfig<$real>, TestCaseError> {
+            ) -> Result<Pid<$real>, TestCaseError> {
                 let (mut pid, mut other) = (first, second);
                 for event in events {
                     let answer = match event {

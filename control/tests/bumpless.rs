@@ -2,17 +2,17 @@
 #![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 #![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
-use control::{AntiWindup, DerivativeOn, PidConfig, PidGains, PidInput, PidState, Status};
+use control::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidState, Status};
 use proptest::prelude::*;
 
-fn config(kp: f64, ki: f64, kd: f64, tau: f64) -> PidConfig {
-    PidConfig::new(PidGains { kp, ki, kd }, 1e-3)
+fn config(kp: f64, ki: f64, kd: f64, tau: f64) -> Pid {
+    Pid::new(PidGains { kp, ki, kd }, 1e-3)
         .and_then(|p| p.with_derivative_filter(tau))
         .and_then(|p| p.with_anti_windup(AntiWindup::BackCalculation { tracking_time: 0.1 }))
         .expect("valid")
 }
 
-fn any_config() -> impl Strategy<Value = PidConfig> {
+fn any_config() -> impl Strategy<Value = Pid> {
     let ki = prop_oneof![Just(0.0), -50.0..50.0];
     (-20.0..20.0, ki, -0.1..0.1, 0.0..0.01, any::<bool>()).prop_map(|(kp, ki, kd, tau, measurement)| {
         let on = if measurement { DerivativeOn::Measurement } else { DerivativeOn::Error };
@@ -21,7 +21,7 @@ fn any_config() -> impl Strategy<Value = PidConfig> {
 }
 
 /// The largest term of the law after the last tick: what a rounding error is relative to.
-fn scale(pid: &PidConfig, state: &PidState, error: f64, feedforward: f64) -> f64 {
+fn scale(pid: &Pid, state: &PidState, error: f64, feedforward: f64) -> f64 {
     let gains = pid.gains();
     [feedforward, gains.kp * error, gains.kd * state.derivative(), state.integral()]
         .into_iter()

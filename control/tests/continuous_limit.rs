@@ -1,12 +1,12 @@
 //! The sampled law against the continuous one: every formula of the doc comment converges to it with order one.
 #![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 
-use control::{PidConfig, PidGains, PidInput, PidState};
+use control::{Pid, PidGains, PidInput, PidState};
 
 /// Largest difference over one second between the sampled PID and `exact`, for the error `sin(w t)`.
 fn sine_error(gains: PidGains, tau: f64, w: f64, ticks: u32, exact: impl Fn(f64) -> f64) -> f64 {
     let period = 1.0 / f64::from(ticks);
-    let pid = PidConfig::new(gains, period).and_then(|p| p.with_derivative_filter(tau)).expect("valid");
+    let pid = Pid::new(gains, period).and_then(|p| p.with_derivative_filter(tau)).expect("valid");
     let mut state = PidState::new();
     let mut worst = 0.0_f64;
     for k in 0..=ticks {
@@ -51,7 +51,7 @@ fn the_filter_follows_the_closed_form_of_its_recursion() {
     // A ramp of slope 3 gives d_k = 3 (1 - (tau / (tau + h))^k): geometric sum of h / (tau + h) per tick.
     let (period, tau, slope) = (1e-3, 7e-3, 3.0);
     let gains = PidGains { kp: 0.0, ki: 0.0, kd: 1.0 };
-    let pid = PidConfig::new(gains, period).and_then(|p| p.with_derivative_filter(tau)).expect("valid");
+    let pid = Pid::new(gains, period).and_then(|p| p.with_derivative_filter(tau)).expect("valid");
     let mut state = PidState::new();
     for k in 0..60 {
         let setpoint = slope * f64::from(k) * period;
@@ -71,7 +71,7 @@ fn a_loop_on_a_first_order_plant() {
     let exact = |t: f64| 1.0 - (-1.5 * t).exp() * ((w * t).cos() - 0.5 / w * (w * t).sin());
     let error = |ticks: u32| {
         let period = 1.0 / f64::from(ticks);
-        let pid = PidConfig::new(PidGains { kp: 2.0, ki: 5.0, kd: 0.0 }, period).expect("valid");
+        let pid = Pid::new(PidGains { kp: 2.0, ki: 5.0, kd: 0.0 }, period).expect("valid");
         let mut state = PidState::new();
         let decay = (-period).exp();
         let (mut y, mut worst) = (0.0, 0.0_f64);

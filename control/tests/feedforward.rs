@@ -1,7 +1,7 @@
 //! A plant driven by the feedforward alone follows the reference.
 #![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
-use control::{Feedforward, PidConfig, PidGains, PidInput, PidState};
+use control::{Feedforward, Pid, PidGains, PidInput, PidState};
 use profiles::Sample;
 
 /// Rest to rest over one metre in one second with continuous jerk:
@@ -97,7 +97,7 @@ fn in_the_loop_nothing_is_left_for_the_feedback() {
     // Constant accelerations over whole ticks: the held force is the exact one. Powers of two keep it exact.
     let (mass, period, acceleration) = (2.0, 1.0 / 1024.0, 4.0);
     let feedforward = Feedforward::rigid(mass, 0.0).expect("valid");
-    let pid = PidConfig::new(PidGains { kp: 5e3, ki: 4e4, kd: 100.0 }, period).expect("valid");
+    let pid = Pid::new(PidGains { kp: 5e3, ki: 4e4, kd: 100.0 }, period).expect("valid");
     let mut state = PidState::new();
     let (mut x, mut v) = (0.0, 0.0);
     let mut reference = Sample::default();

@@ -1,12 +1,12 @@
 //! Configurations are checked when they are read.
 #![cfg(feature = "serde")]
 
-use control::{AntiWindup, DerivativeOn, Feedforward, PidConfig, PidGains};
+use control::{AntiWindup, DerivativeOn, Feedforward, Pid, PidGains};
 
 #[test]
 fn a_configuration_comes_back_as_it_was() {
     let gains = PidGains { kp: 0.1, ki: 3.0, kd: -0.0 };
-    let plain = PidConfig::new(gains, 1e-3).expect("valid");
+    let plain = Pid::new(gains, 1e-3).expect("valid");
     let full = plain
         .with_derivative_on(DerivativeOn::Measurement)
         .with_derivative_filter(0.01)
@@ -15,13 +15,13 @@ fn a_configuration_comes_back_as_it_was() {
         .expect("valid");
     for pid in [plain, full] {
         let text = serde_json::to_string(&pid).expect("writes");
-        assert_eq!(serde_json::from_str::<PidConfig>(&text).expect(&text), pid);
+        assert_eq!(serde_json::from_str::<Pid>(&text).expect(&text), pid);
     }
 }
 
 #[test]
 fn what_is_absent_has_its_default_and_what_is_wrong_is_refused() {
-    let read = |text: &str| serde_json::from_str::<PidConfig<f32>>(text);
+    let read = |text: &str| serde_json::from_str::<Pid<f32>>(text);
     let gains = r#""gains": {"kp": 1, "ki": 2, "kd": 0}"#;
     let pid = read(&format!(r#"{{{gains}, "period": 0.5, "upper": 3}}"#)).expect("valid");
     assert_eq!(pid.anti_windup(), AntiWindup::Clamping);

@@ -1,4 +1,5 @@
 //! Planning and sampling, beside rsruckig in the same run.
+#![expect(clippy::expect_used, reason = "a bench may fail loudly")]
 
 use std::hint::black_box;
 

@@ -14,7 +14,8 @@ const MOST_TICKS: f64 = 9_007_199_254_740_992.0;
 ///
 /// The plan stays in double precision. At the start of a section (and every 4096 ticks) it is expanded about the
 /// present tick; in between a tick costs one short polynomial in the time since then, so that single precision
-/// never carries absolute time. Tick `k` is the instant `k` times the period; after the end the cursor goes on
+/// never carries absolute time. Tick `k` is the instant `k` times the period, at a boundary where it is within four
+/// roundings of it; after the end the cursor goes on
 /// with the motion after the profile.
 ///
 /// ```
@@ -102,7 +103,8 @@ impl<P: Sectioned, F: Real> Cursor<P, F> {
     /// Whether the tick that comes next is at or after the end.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        self.next_tick() as f64 * self.period >= self.profile.duration()
+        let duration = self.profile.duration();
+        self.next_tick() as f64 * self.period >= duration - instant_rounding(duration)
     }
 
     /// The profile.
@@ -117,15 +119,15 @@ impl<P: Sectioned, F: Real> Cursor<P, F> {
     fn expand(&mut self) {
         self.first = self.next_tick();
         self.since = 0;
-        let now = self.first as f64 * self.period;
+        let mut now = self.first as f64 * self.period;
+        now += instant_rounding(now);
         let section = (0..).map_while(|k| self.profile.section(k)).find(|section| now < section.end);
         let section = section.unwrap_or_else(|| {
             let end = self.profile.duration();
             Section::cruise(end, f64::INFINITY, self.profile.after())
         });
         self.motion = Expansion::about(now, &section);
-        // The cast saturates. A rounded quotient may leave a tick on the wrong side of a boundary by a rounding of
-        // its time; there both sides agree.
+        // The cast saturates.
         self.served = (Real::ceil((section.end - now) / self.period) as u32).clamp(1, BLOCK);
     }
 }
@@ -162,6 +164,11 @@ impl<F: Real> Expansion<F> {
         let w = self.angular_frequency;
         if w == F::ZERO { motion } else { with_sine(motion, self.amplitude, w, x + self.phase / w) }
     }
+}
+
+/// How much rounding may displace an instant, s: a tick that close to a boundary is at it.
+pub(crate) fn instant_rounding(t: f64) -> f64 {
+    4.0 * f64::EPSILON * t
 }
 
 /// Whether a clock of this period can count through a profile.

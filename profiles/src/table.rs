@@ -2,10 +2,10 @@
 
 use core::fmt::Write;
 
-use crate::cursor::check_clock;
+use crate::cursor::{check_clock, instant_rounding};
 use crate::error::TableError;
 use crate::profile::Profile;
-use crate::quantities::Sample;
+use crate::quantities::{Real, Sample};
 
 /// The most rows a table may have.
 const MOST_ROWS: f64 = 100_000_000.0;
@@ -42,7 +42,8 @@ where
     writeln!(out)?;
     for row in 0..rows {
         let time = f64::from(row) * period;
-        let Sample { position, velocity, acceleration, jerk, snap } = profile.sample(time);
+        let Sample { position, velocity, acceleration, jerk, snap } =
+            sample_of_row(profile, row, rows, period);
         writeln!(out, "{time},{position},{velocity},{acceleration},{jerk},{snap}")?;
     }
     Ok(())
@@ -98,7 +99,7 @@ where
     {
         writeln!(out, "\n/* {column}, {unit} */\nstatic const float {name}_{column}[{rows}] = {{")?;
         for row in 0..rows {
-            let Sample { position, velocity, acceleration, .. } = profile.sample(f64::from(row) * period);
+            let Sample { position, velocity, acceleration, .. } = sample_of_row(profile, row, rows, period);
             let value = match order {
                 0 => position,
                 1 => velocity,
@@ -120,13 +121,18 @@ where
 /// Rows from the start to the first tick at or after the end.
 fn row_count<P: Profile + ?Sized>(profile: &P, period: f64) -> Result<u32, TableError> {
     check_clock(profile.duration(), period)?;
-    let ticks = libm::ceil(profile.duration() / period);
+    let duration = profile.duration();
+    let ticks = Real::ceil((duration - instant_rounding(duration)) / period);
     if ticks >= MOST_ROWS {
         return Err(TableError::TooManyRows { rows: ticks, most: MOST_ROWS });
     }
-    // A quotient rounded down must not cost the row that shows the end.
-    let short = u32::from(ticks * period < profile.duration());
-    Ok(ticks as u32 + short + 1)
+    Ok(ticks as u32 + 1)
+}
+
+/// The sample of a row; the last row shows the end.
+fn sample_of_row<P: Profile + ?Sized>(profile: &P, row: u32, rows: u32, period: f64) -> Sample {
+    let t = f64::from(row) * period;
+    profile.sample(if row + 1 == rows { t.max(profile.duration()) } else { t })
 }
 
 #[cfg(test)]
@@ -168,11 +174,11 @@ mod tests {
     fn the_last_row_shows_the_end() {
         let profile = Trapezoid::rest_to_rest(1.0, &Limits::new(0.3, 0.7, f64::INFINITY).expect("limits"));
         let profile = profile.expect("plan");
-        for divisions in 1..200 {
+        for divisions in 1..200_u32 {
             let period = profile.duration() / f64::from(divisions);
             let rows = row_count(&profile, period).expect("rows");
-            assert!(f64::from(rows - 1) * period >= profile.duration());
-            assert!(rows <= divisions as u32 + 2);
+            assert_eq!(rows, divisions + 1);
+            assert_eq!(sample_of_row(&profile, rows - 1, rows, period), Sample::at_rest(1.0));
         }
     }
 

@@ -1,4 +1,6 @@
 //! Bad requests are answered with the number that is wrong.
+#![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
+#![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
 use profiles::{Cosine, Interval, Limits, PlanError, Profile, SCurve, Sample, SnapLimited, Trapezoid};
 

@@ -1,4 +1,6 @@
 //! Properties of every law over random limits and distances.
+#![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
+#![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Durations against an independent time-optimal planner, and against brute force where that has none.
+#![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! The closed-form response against quadrature, and against the simulation of an oscillator.
+#![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
 
 mod common;
 

@@ -13,7 +13,7 @@ use crate::error::PidError;
 pub struct PidGains<F = f64> {
     /// Proportional gain, U/E.
     pub kp: F,
-    /// Integral gain, U/(E s); zero freezes the integral, see [`PidConfig::take_over`].
+    /// Integral gain, U/(E s); zero freezes the integral, see [`Pid::take_over`].
     pub ki: F,
     /// Derivative gain, U s/E.
     pub kd: F,
@@ -53,9 +53,9 @@ pub enum AntiWindup<F = f64> {
 /// A checked PID configuration; any number of axes may share it, each with its own [`PidState`](crate::PidState).
 ///
 /// ```
-/// use control::{AntiWindup, DerivativeOn, PidConfig, PidGains};
+/// use control::{AntiWindup, DerivativeOn, Pid, PidGains};
 ///
-/// let pid = PidConfig::new(PidGains { kp: 40.0, ki: 200.0, kd: 2.0 }, 1e-3)?
+/// let pid = Pid::new(PidGains { kp: 40.0, ki: 200.0, kd: 2.0 }, 1e-3)?
 ///     .with_derivative_on(DerivativeOn::Measurement)
 ///     .with_derivative_filter(5e-3)?
 ///     .with_output_limits(-10.0, 10.0)?
@@ -74,7 +74,7 @@ pub enum AntiWindup<F = f64> {
         bound(serialize = "F: Real + serde::Serialize", deserialize = "F: Real + serde::Deserialize<'de>")
     )
 )]
-pub struct PidConfig<F = f64> {
+pub struct Pid<F = f64> {
     pub(super) gains: PidGains<F>,
     period: F,
     derivative_on: DerivativeOn,
@@ -97,7 +97,7 @@ pub struct PidConfig<F = f64> {
     pub(super) clamping: bool,
 }
 
-impl<F: Real> PidConfig<F> {
+impl<F: Real> Pid<F> {
     /// Gains and sampling period `h` in s; derivative on the error and unfiltered, output unlimited, anti-windup by
     /// clamping.
     ///
@@ -127,7 +127,7 @@ impl<F: Real> PidConfig<F> {
         .with_derivative_filter(F::ZERO)
     }
 
-    /// Replaces the gains; [`PidConfig::take_over`] makes the change without a bump.
+    /// Replaces the gains; [`Pid::take_over`] makes the change without a bump.
     ///
     /// # Errors
     /// A gain that is not finite, or `ki h` beyond the range of `F`.
@@ -242,7 +242,7 @@ fn in_range<F: Real>(quantity: &'static str, value: F) -> Result<F, PidError> {
 mod unchecked {
     //! The configuration as it is written down; an absent limit is infinite, which JSON could not say.
 
-    use super::{AntiWindup, DerivativeOn, PidConfig, PidError, PidGains, Real};
+    use super::{AntiWindup, DerivativeOn, Pid, PidError, PidGains, Real};
 
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(
@@ -264,7 +264,7 @@ mod unchecked {
         anti_windup: AntiWindup<F>,
     }
 
-    impl<F: Real> TryFrom<UncheckedPid<F>> for PidConfig<F> {
+    impl<F: Real> TryFrom<UncheckedPid<F>> for Pid<F> {
         type Error = PidError;
         fn try_from(unchecked: UncheckedPid<F>) -> Result<Self, PidError> {
             let pid = Self::new(unchecked.gains, unchecked.period)?
@@ -275,8 +275,8 @@ mod unchecked {
         }
     }
 
-    impl<F: Real> From<PidConfig<F>> for UncheckedPid<F> {
-        fn from(pid: PidConfig<F>) -> Self {
+    impl<F: Real> From<Pid<F>> for UncheckedPid<F> {
+        fn from(pid: Pid<F>) -> Self {
             Self {
                 gains: pid.gains,
                 period: pid.period,
@@ -297,17 +297,17 @@ mod tests {
 
     const GAINS: PidGains = PidGains { kp: 1.0, ki: 2.0, kd: 3.0 };
 
-    fn pid() -> PidConfig {
-        PidConfig::new(GAINS, 0.5).expect("valid")
+    fn pid() -> Pid {
+        Pid::new(GAINS, 0.5).expect("valid")
     }
 
     #[test]
     fn bad_numbers_are_named() {
-        assert_eq!(PidConfig::new(GAINS, 0.0), Err(PidError::Period(0.0)));
-        assert_eq!(PidConfig::new(GAINS, f64::INFINITY), Err(PidError::Period(f64::INFINITY)));
-        assert!(matches!(PidConfig::new(GAINS, f64::NAN), Err(PidError::Period(h)) if h.is_nan()));
+        assert_eq!(Pid::new(GAINS, 0.0), Err(PidError::Period(0.0)));
+        assert_eq!(Pid::new(GAINS, f64::INFINITY), Err(PidError::Period(f64::INFINITY)));
+        assert!(matches!(Pid::new(GAINS, f64::NAN), Err(PidError::Period(h)) if h.is_nan()));
         assert_eq!(
-            PidConfig::new(PidGains { kd: f64::INFINITY, ..GAINS }, 1.0),
+            Pid::new(PidGains { kd: f64::INFINITY, ..GAINS }, 1.0),
             Err(PidError::Gain { which: "kd", value: f64::INFINITY })
         );
         assert_eq!(pid().with_derivative_filter(-1.0), Err(PidError::DerivativeFilter(-1.0)));
@@ -326,8 +326,8 @@ mod tests {
     #[test]
     fn coefficients_out_of_range_are_refused() {
         let huge = PidGains { ki: 1e300, ..GAINS };
-        assert!(matches!(PidConfig::new(huge, 1e300), Err(PidError::Range { .. })));
-        assert!(matches!(PidConfig::new(GAINS, 5e-324), Err(PidError::Range { .. })));
+        assert!(matches!(Pid::new(huge, 1e300), Err(PidError::Range { .. })));
+        assert!(matches!(Pid::new(GAINS, 5e-324), Err(PidError::Range { .. })));
     }
 
     #[test]

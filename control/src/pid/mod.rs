@@ -5,6 +5,6 @@ mod state;
 mod switching;
 mod update;
 
-pub use config::{AntiWindup, DerivativeOn, PidConfig, PidGains};
+pub use config::{AntiWindup, DerivativeOn, Pid, PidGains};
 pub use state::PidState;
 pub use update::{PidInput, PidOutput, Status};

@@ -2,9 +2,9 @@
 
 use profiles::Real;
 
-use super::{PidConfig, PidInput, PidOutput, PidState, Status};
+use super::{Pid, PidInput, PidOutput, PidState, Status};
 
-impl<F: Real> PidConfig<F> {
+impl<F: Real> Pid<F> {
     /// Prepares `state`, so far driven by `old`, for this configuration, between two ticks.
     ///
     /// With `e` and `d` of the last valid tick the integral becomes
@@ -29,7 +29,7 @@ impl<F: Real> PidConfig<F> {
     /// at zero: the next tick goes on from there (flying start). The answer is the output within the limits.
     ///
     /// An input or output that is not finite leaves the state as it is and answers as
-    /// [`PidConfig::update`] does.
+    /// [`Pid::update`] does.
     pub fn preset(&self, state: &mut PidState<F>, output: F, input: PidInput<F>) -> PidOutput<F> {
         let mut fresh = PidState::new();
         fresh.set_manual(output);
@@ -50,8 +50,8 @@ mod tests {
     use super::*;
     use crate::PidGains;
 
-    fn pid(kp: f64, ki: f64, kd: f64) -> PidConfig {
-        PidConfig::new(PidGains { kp, ki, kd }, 0.5).expect("valid")
+    fn pid(kp: f64, ki: f64, kd: f64) -> Pid {
+        Pid::new(PidGains { kp, ki, kd }, 0.5).expect("valid")
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use profiles::Real;
 
-use super::{PidConfig, PidState};
+use super::{Pid, PidState};
 
 /// What a PID controller is told at a tick.
 ///
@@ -61,7 +61,7 @@ pub enum Status {
     Held,
 }
 
-impl<F: Real> PidConfig<F> {
+impl<F: Real> Pid<F> {
     /// One tick. With period `h`, filter time constant `tau`, tracking time `T` and error `e = r - y`:
     ///
     /// ```text
@@ -184,8 +184,8 @@ mod tests {
     use super::*;
     use crate::{DerivativeOn, PidGains};
 
-    fn pid() -> PidConfig {
-        PidConfig::new(PidGains { kp: 2.0, ki: 4.0, kd: 1.0 }, 0.5).expect("valid")
+    fn pid() -> Pid {
+        Pid::new(PidGains { kp: 2.0, ki: 4.0, kd: 1.0 }, 0.5).expect("valid")
     }
 
     #[test]
@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn one_absurd_sample_does_not_hold_for_good() {
-        let pid = PidConfig::new(PidGains { kp: 1.0, ki: 0.0, kd: 1.0 }, 0.5).expect("valid");
+        let pid = Pid::new(PidGains { kp: 1.0, ki: 0.0, kd: 1.0 }, 0.5).expect("valid");
         let mut state = PidState::new();
         let mut status = |y| pid.update(&mut state, PidInput::new(0.0, y)).status;
         assert_eq!(status(1.5e308), Status::Regular);
@@ -289,7 +289,7 @@ mod tests {
 
     #[test]
     fn a_derivative_that_overflows_the_sum_is_forgotten() {
-        let pid = PidConfig::new(PidGains { kp: -1.0, ki: 2.0, kd: 1.0 }, 0.5)
+        let pid = Pid::new(PidGains { kp: -1.0, ki: 2.0, kd: 1.0 }, 0.5)
             .and_then(|p| p.with_derivative_filter(0.5))
             .expect("valid")
             .with_derivative_on(DerivativeOn::Measurement);

@@ -20,33 +20,12 @@ use crate::error::LimitsError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedLimits"))]
+#[cfg_attr(feature = "serde", serde(try_from = "written::WrittenLimits", into = "written::WrittenLimits"))]
 pub struct Limits {
     velocity: Interval,
     acceleration: Interval,
     jerk: Interval,
     snap: f64,
-}
-
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-struct UncheckedLimits {
-    velocity: Interval,
-    acceleration: Interval,
-    jerk: Interval,
-    snap: f64,
-}
-
-#[cfg(feature = "serde")]
-impl TryFrom<UncheckedLimits> for Limits {
-    type Error = LimitsError;
-    fn try_from(limits: UncheckedLimits) -> Result<Self, LimitsError> {
-        Self::UNLIMITED
-            .with_velocity(limits.velocity)?
-            .with_acceleration(limits.acceleration)?
-            .with_jerk(limits.jerk)?
-            .with_snap(limits.snap)
-    }
 }
 
 impl Limits {
@@ -156,6 +135,70 @@ fn around_zero(quantity: &'static str, bounds: Interval) -> Result<Interval, Lim
         Ok(bounds)
     } else {
         Err(LimitsError { quantity, lower: bounds.lower, upper: bounds.upper })
+    }
+}
+
+#[cfg(feature = "serde")]
+mod written {
+    //! Limits as they are written down; an absent bound is infinite, which JSON could not say.
+
+    use super::{Interval, Limits, LimitsError};
+
+    #[derive(Default, serde::Serialize, serde::Deserialize)]
+    #[serde(deny_unknown_fields, default)]
+    pub(super) struct WrittenLimits {
+        velocity: WrittenInterval,
+        acceleration: WrittenInterval,
+        jerk: WrittenInterval,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        snap: Option<f64>,
+    }
+
+    #[derive(Default, serde::Serialize, serde::Deserialize)]
+    #[serde(deny_unknown_fields, default)]
+    struct WrittenInterval {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        lower: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        upper: Option<f64>,
+    }
+
+    impl From<Interval> for WrittenInterval {
+        fn from(Interval { lower, upper }: Interval) -> Self {
+            let finite = |bound: f64| Some(bound).filter(|b| b.is_finite());
+            Self { lower: finite(lower), upper: finite(upper) }
+        }
+    }
+
+    impl From<WrittenInterval> for Interval {
+        fn from(written: WrittenInterval) -> Self {
+            Self {
+                lower: written.lower.unwrap_or(f64::NEG_INFINITY),
+                upper: written.upper.unwrap_or(f64::INFINITY),
+            }
+        }
+    }
+
+    impl From<Limits> for WrittenLimits {
+        fn from(limits: Limits) -> Self {
+            Self {
+                velocity: limits.velocity.into(),
+                acceleration: limits.acceleration.into(),
+                jerk: limits.jerk.into(),
+                snap: Some(limits.snap).filter(|s| s.is_finite()),
+            }
+        }
+    }
+
+    impl TryFrom<WrittenLimits> for Limits {
+        type Error = LimitsError;
+        fn try_from(written: WrittenLimits) -> Result<Self, LimitsError> {
+            Self::UNLIMITED
+                .with_velocity(written.velocity.into())?
+                .with_acceleration(written.acceleration.into())?
+                .with_jerk(written.jerk.into())?
+                .with_snap(written.snap.unwrap_or(f64::INFINITY))
+        }
     }
 }
 

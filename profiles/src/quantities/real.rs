@@ -171,6 +171,7 @@ real!(f64, cbrt => cbrt, sin => sin, cos => cos, exp => exp, ln => log, floor =>
 real!(f32, cbrt => cbrtf, sin => sinf, cos => cosf, exp => expf, ln => logf, floor => floorf, ceil => ceilf, round => roundf; sqrtf sincosf atan2f powf);
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "numbers that are exact in binary")]
 mod tests {
     use super::Real;
 
