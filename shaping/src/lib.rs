@@ -1,1 +1,2 @@
+#![no_std]
 #![doc = include_str!("../README.md")]
