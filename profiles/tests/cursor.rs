@@ -73,6 +73,21 @@ fn single_precision_keeps_its_digits_through_a_long_move() {
 }
 
 #[test]
+fn a_tick_within_rounding_of_the_end_is_the_end() {
+    // 0.27 s in ticks of 1 ms: 270 times 0.001 is one rounding off 0.27.
+    let limits = profiles::Limits::new(0.2, 4.0, 200.0).expect("limits");
+    for (distance, ticks) in [(0.04, 270), (0.05, 320), (0.06, 370), (0.1, 570)] {
+        let profile = SCurve::rest_to_rest(distance, &limits).expect("plan");
+        let mut cursor = Cursor::<_, f64>::new(profile, 1e-3).expect("clock");
+        while !cursor.is_finished() {
+            let _ = cursor.tick();
+        }
+        assert_eq!(cursor.next_tick(), ticks);
+        assert_eq!(cursor.tick(), profiles::Sample::at_rest(distance));
+    }
+}
+
+#[test]
 fn seeking_is_the_same_as_ticking() {
     let limits = profiles::Limits::new(0.2, 4.0, 200.0).expect("limits");
     let profile = SCurve::rest_to_rest(0.04, &limits).expect("plan");

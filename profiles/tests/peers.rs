@@ -4,7 +4,7 @@
 mod common;
 
 use common::{CASES, Law, balanced_move, lopsided, magnitude};
-use profiles::{Interval, Limits, Profile, SCurve, SnapLimited};
+use profiles::{Cosine, Interval, Limits, Profile, SCurve, SnapLimited};
 use proptest::prelude::*;
 use rsruckig::prelude::*;
 
@@ -99,6 +99,23 @@ fn every_regime_of_the_snap_limited_law_is_its_closed_form() {
     close(plan(96.0, inf, inf, 1.0, 1.0), 4.0 * 4.0);
     // Snap, jerk and velocity: x (x + t4) = V/J, x = 3: h/V + 2 (x + t4).
     close(plan(1200.0, 12.0, inf, 1.0, 1.0), 100.0 + 8.0);
+}
+
+#[test]
+fn every_regime_of_the_cosine_is_its_closed_form() {
+    let plan = |h: f64, v: f64, a: f64, j: f64| {
+        Cosine::rest_to_rest(h, &Limits::new(v, a, j).expect("limits")).expect("plan").duration()
+    };
+    let (inf, pi) = (f64::INFINITY, std::f64::consts::PI);
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-14 * b, "{a} {b}");
+    // Velocity and acceleration: h/V + pi V / 2A.
+    close(plan(10.0, 2.0, 1.0, inf), 5.0 + pi);
+    // Velocity and jerk: h/V + pi (V / 2J)^(1/2).
+    close(plan(10.0, 2.0, inf, 0.25), 5.0 + 2.0 * pi);
+    // Acceleration alone: 2 t1 with a = pi v / 2 t1 and h = v t1, so t1^2 = pi h / 2A.
+    close(plan(8.0 * pi, inf, 1.0, inf), 4.0 * pi);
+    // Jerk alone: j = pi^2 v / 2 t1^2 and h = v t1, so t1^3 = pi^2 h / 2J.
+    close(plan(16.0 * pi, inf, inf, 1.0), 4.0 * pi);
 }
 
 #[test]
