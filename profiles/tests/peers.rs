@@ -111,7 +111,7 @@ fn every_regime_of_the_cosine_is_its_closed_form() {
     // Velocity and acceleration: h/V + pi V / 2A.
     close(plan(10.0, 2.0, 1.0, inf), 5.0 + pi);
     // Velocity and jerk: h/V + pi (V / 2J)^(1/2).
-    close(plan(10.0, 2.0, inf, 0.25), 5.0 + 2.0 * pi);
+    close(plan(20.0, 2.0, inf, 0.25), 10.0 + 2.0 * pi);
     // Acceleration alone: 2 t1 with a = pi v / 2 t1 and h = v t1, so t1^2 = pi h / 2A.
     close(plan(8.0 * pi, inf, 1.0, inf), 4.0 * pi);
     // Jerk alone: j = pi^2 v / 2 t1^2 and h = v t1, so t1^3 = pi^2 h / 2J.
