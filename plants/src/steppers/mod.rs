@@ -1,0 +1,13 @@
+//! Moving a plant through time.
+
+mod dormand_prince;
+mod integrate;
+mod rk4;
+mod stepper;
+mod zero_order_hold;
+
+pub use dormand_prince::{DormandPrince, Tolerance};
+pub use integrate::{integrate, integrate_adaptive};
+pub use rk4::Rk4;
+pub use stepper::Stepper;
+pub use zero_order_hold::{HeldLinear, ZeroOrderHold};
