@@ -1,0 +1,3 @@
+//! One module per paper.
+
+pub mod acceleration_curves;
