@@ -76,8 +76,9 @@ fn exponential<const N: usize, const M: usize>(a: &DMatrix<f64>, b: &SMatrix<f64
     let mut balanced = a.clone();
     let scale = balance_parlett_reinsch(&mut balanced);
     let scaled_b = SMatrix::<f64, N, M>::from_fn(|i, j| b[(i, j)] / scale[i]);
-    // Gamma is linear in B, so B may be brought below A, where it cannot add to the scaling.
-    let input_scale = power_of_two_above(scaled_b.one_norm() / balanced.one_norm());
+    // Gamma is linear in B, so B may be brought below A: powers of a large B would overflow inside the exponential,
+    // which then does not return.
+    let input_scale = power_of_two_above((scaled_b.one_norm() / balanced.one_norm()).min(1e300));
 
     let mut augmented = DMatrix::zeros(N + M, N + M);
     augmented.view_mut((0, 0), (N, N)).copy_from(&balanced);
@@ -150,7 +151,7 @@ mod tests {
 
     #[test]
     fn stiff_lag_and_large_inputs() {
-        for (a, b, t) in [(-1e5_f64, 1e5, 1e-3), (-1e5, 3.0, 1e-6), (-2.0, 1e30, 0.1), (1.0, 1e-30, 1.0)] {
+        for (a, b, t) in [(-1e5_f64, 1e5, 1e-3), (-1e5, 3.0, 1e-6), (-1e5, 1e300, 1e-3), (1.0, 1e-30, 1.0)] {
             let hold = zero_order_hold(&matrix![a], &matrix![b], t).expect("finite");
             close(&hold.state, &matrix![(a * t).exp()], 1e-12);
             close(&hold.input, &matrix![b * (a * t).exp_m1() / a], TOLERANCE);
@@ -174,6 +175,13 @@ mod tests {
         assert_eq!(hold.input, Vector2::new(5e299, -1.0));
         let hold = zero_order_hold(&matrix![0.0, 1.0; -9.0, -1.0], &vector![0.0, 1.0], 0.0).expect("finite");
         assert_eq!(hold.apply(&vector![3.0, 4.0], &vector![1.0]), vector![3.0, 4.0]);
+    }
+
+    #[test]
+    fn dynamics_below_any_resolution_leave_the_input() {
+        let hold = zero_order_hold(&matrix![-1e-310], &matrix![3.0], 2.0).expect("finite");
+        close(&hold.state, &matrix![1.0], TOLERANCE);
+        close(&hold.input, &matrix![6.0], TOLERANCE);
     }
 
     #[test]

@@ -141,6 +141,10 @@ mod tests {
         // 2^53 + 1 lies halfway and goes to the even neighbour; anything more goes up.
         assert_eq!(quotient((1 << 53) + 1, 1), 9_007_199_254_740_992.0);
         assert_eq!(quotient(((1 << 53) + 1) * 3 + 1, 3), 9_007_199_254_740_994.0);
+        // The same where what is left over lies below the last digit of the shifted quotient.
+        let (halfway, q) = (((1_u128 << 53) + 1) << 11, (1_u64 << 62) + 1);
+        assert_eq!(quotient(halfway * u128::from(q), q), 9_007_199_254_740_992.0 * 2048.0);
+        assert_eq!(quotient(halfway * u128::from(q) + 1, q), 9_007_199_254_740_994.0 * 2048.0);
         assert_eq!(quotient(u128::MAX, u64::MAX), 2.0_f64.powi(64));
     }
 
