@@ -1,7 +1,7 @@
 //! A linear motor under a sampled PD controller with an encoder and a computation delay: prints how the error of a
 //! step to 1 mm falls, for three delays.
 
-use plants::nalgebra::vector;
+use plants::nalgebra::{self, vector};
 use plants::{Clock, Encoder, LinearMotor, Simulation, ZeroOrderHold};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

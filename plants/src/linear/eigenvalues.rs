@@ -18,7 +18,7 @@ const ITERATIONS: usize = 2_000;
 /// An entry that is not finite, or a QR iteration that does not converge.
 ///
 /// ```
-/// use plants::{eigenvalues, nalgebra::matrix};
+/// use plants::{eigenvalues, nalgebra::{self, matrix}};
 ///
 /// let [p, q] = eigenvalues(&matrix![0.0, 1.0; -25.0, -6.0])?;
 /// assert!(((p + q).re + 6.0).abs() < 1e-13 && ((p * q).re - 25.0).abs() < 1e-13);

@@ -14,7 +14,7 @@ use crate::models::{Plant, StateSpace};
 /// A derivative that is not finite.
 ///
 /// ```
-/// use plants::{linearise, nalgebra::{SVector, vector}};
+/// use plants::{linearise, nalgebra::{self, SVector, vector}};
 ///
 /// // A pendulum of 1 m hanging at rest swings with sqrt(g / l).
 /// let pendulum = |x: &SVector<f64, 2>, u: &SVector<f64, 1>| vector![x[1], -9.81 * x[0].sin() + u[0]];

@@ -11,7 +11,7 @@ use nalgebra::{SMatrix, SVector};
 /// loop is unstable when [`spectral_radius`](crate::spectral_radius) of the result exceeds one.
 ///
 /// ```
-/// use plants::{monodromy, spectral_radius, nalgebra::vector};
+/// use plants::{monodromy, spectral_radius, nalgebra::{self, vector}};
 ///
 /// // A mass of 1 kg under a sampled P controller, x' = v, v' = -k x: no gain makes it stable.
 /// let (k, t) = (100.0, 0.01);

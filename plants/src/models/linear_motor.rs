@@ -16,7 +16,7 @@ use crate::steppers::HeldLinear;
 /// [`driven_by_current`](Self::driven_by_current). The force may have a limit.
 ///
 /// ```
-/// use plants::{HeldLinear, LinearMotor, nalgebra::vector};
+/// use plants::{HeldLinear, LinearMotor, nalgebra::{self, vector}};
 ///
 /// let motor = LinearMotor::new(2.0, 0.0)?.driven_by_current(50.0)?.with_force_limit(100.0)?;
 /// // 1 A on an air bearing: 25 m/s^2 for 0.1 s.

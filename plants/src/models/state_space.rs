@@ -12,7 +12,7 @@ use crate::steppers::HeldLinear;
 /// `x' = A x + B u`, `y = C x + D u`
 ///
 /// ```
-/// use plants::{StateSpace, nalgebra::{matrix, vector}};
+/// use plants::{StateSpace, nalgebra::{self, matrix, vector}};
 ///
 /// // A mass of 2 kg on a spring of 200 N/m, moved by a force.
 /// let system = StateSpace::new(

@@ -8,7 +8,7 @@ use crate::error::SimulationError;
 /// What an actuator realises of an input command.
 ///
 /// ```
-/// use plants::{Saturation, nalgebra::vector};
+/// use plants::{Saturation, nalgebra::{self, vector}};
 ///
 /// let inverter = Saturation::norm(10.0)?;
 /// assert_eq!(inverter.apply(&vector![12.0, 16.0]), vector![6.0, 8.0]);

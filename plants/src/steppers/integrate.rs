@@ -17,7 +17,7 @@ use crate::error::StepError;
 /// A step that is negative or not finite.
 ///
 /// ```
-/// use plants::{integrate, nalgebra::vector};
+/// use plants::{integrate, nalgebra::{self, vector}};
 ///
 /// // A mass of 1 kg on a continuous PD controller, following x = t.
 /// let loop_ = |t: f64, x: &plants::nalgebra::SVector<f64, 2>| {

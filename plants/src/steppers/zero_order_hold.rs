@@ -31,7 +31,7 @@ const KEPT: usize = 8;
 /// changes a result.
 ///
 /// ```
-/// use plants::{LinearMotor, Stepper, ZeroOrderHold, nalgebra::vector};
+/// use plants::{LinearMotor, Stepper, ZeroOrderHold, nalgebra::{self, vector}};
 ///
 /// let mut carriage = ZeroOrderHold::new(LinearMotor::new(2.0, 0.0)?);
 /// let state = carriage.advance(&vector![0.0, 1.0], &vector![4.0], 0.5)?;
