@@ -8,7 +8,8 @@ use profiles::{Cosine, Profile, SCurve, Sectioned, SnapLimited, Trapezoid};
 
 use self::loops::{ErrorCourse, Sampled, continuous};
 use self::setup::{
-    ACCELERATION, DISTANCE, FEEDFORWARD, JERK, Law, MASS, READINGS, SETTLING, SNAP, WHOLE_MOVE, VELOCITY, limits,
+    ACCELERATION, DISTANCE, FEEDFORWARD, JERK, Law, MASS, MOVE_HORIZON, READINGS, SNAP, VELOCITY, WHOLE_MOVE,
+    limits,
 };
 use crate::experiment::{Context, Experiment, Outcome, Source};
 use crate::figure::{Figure, Panel, Quantity, Role};
@@ -45,7 +46,8 @@ fn run(context: &Context) -> Result<Outcome> {
          closest of the readings tried.",
         1e3 * DISTANCE
     ));
-    outcome.note("The discussion of figure 8 names the quadratic curve twice; 6.3 um belongs to the cubic one.");
+    outcome
+        .note("The discussion of figure 8 names the quadratic curve twice; 6.3 um belongs to the cubic one.");
     outcome.note(
         "Equation (10) lists the phase of constant jerk under J = 0; the phase of constant acceleration is meant.",
     );
@@ -96,16 +98,15 @@ fn law<P: Sectioned>(id: &str, title: &str, profile: &P, orders: usize) -> Figur
         // Both sides of every boundary, so that a jump is drawn as one.
         let mut points = vec![(0.0, value(profile.before()))];
         for section in &sections {
-            let instants = (0..=100).map(|k| section.start + (section.end - section.start) * f64::from(k) / 100.0);
+            let instants =
+                (0..=100).map(|k| section.start + (section.end - section.start) * f64::from(k) / 100.0);
             points.extend(instants.map(|t| (t, value(section.at(t)))));
         }
         points.push((profile.duration(), value(profile.after())));
         let mut panel = Panel::new(quantity).line("", Role::Ours, points);
-        if order < orders || order == 0 {
-            panel = panel.limit(limit, name);
-            if order > 0 {
-                panel = panel.limit(-limit, &format!("-{name}"));
-            }
+        panel = panel.limit(limit, name);
+        if order > 0 {
+            panel = panel.limit(-limit, &format!("−{name}"));
         }
         for section in sections.iter().step_by(2) {
             panel = panel.band(section.start, section.end, "");
@@ -125,7 +126,8 @@ fn ramp_times(outcome: &mut Outcome) -> Result<()> {
     for law in Law::ALL {
         let ramp = law.ramp()?;
         let instants = || (0..=1000).map(|k| 0.1 * f64::from(k) / 1000.0);
-        let line = |value: fn(&profiles::Sample) -> f64| instants().map(|t| (t, value(&ramp.sample(t)))).collect();
+        let line =
+            |value: fn(&profiles::Sample) -> f64| instants().map(|t| (t, value(&ramp.sample(t)))).collect();
         speeds = speeds.line(law.id(), law.role(), line(|s| s.velocity));
         accelerations = accelerations.line(law.id(), law.role(), line(|s| s.acceleration));
         if law != Law::Trapezoid {
@@ -140,7 +142,8 @@ fn ramp_times(outcome: &mut Outcome) -> Result<()> {
         }
     }
     let figure = Figure::new("fig7", "Fig. 7: ramps to 0.2 m/s at up to 4 m/s²", Quantity::time());
-    outcome.figure(figure.panel(speeds.marks("printed end of ramp", printed)).panel(accelerations).panel(jerks));
+    outcome
+        .figure(figure.panel(speeds.marks("printed end of ramp", printed)).panel(accelerations).panel(jerks));
     Ok(())
 }
 
@@ -160,13 +163,14 @@ fn error_panel(courses: &[(Law, ErrorCourse)]) -> Panel {
 
 /// Figure 8 in continuous time, for every reading of its gains and of its move.
 fn position_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
-    let mut readings = Figure::new("fig8-readings", "Fig. 8 read in three other ways, continuous control", Quantity::time());
+    let mut readings =
+        Figure::new("fig8-readings", "Fig. 8 read in three other ways, continuous control", Quantity::time());
     for reading in &READINGS {
         context.progress.say(reading.title);
         let mut courses = Vec::new();
         for law in Law::COMPARED {
             let reference = reading.reference(law)?;
-            let course = continuous(reading.gains, &*reference, reading.horizon(&*reference))?;
+            let course = continuous(reading.gains, &*reference, reading.horizon())?;
             outcome.measure(format!("peak-error/{}/{}", reading.id, law.id()), course.peak().1.abs());
             courses.push((law, course));
         }
@@ -179,18 +183,20 @@ fn position_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
         let panel = error_panel(&courses);
         if reading.whole_move {
             let title = "Fig. 8: position error over a move of 40 mm, continuous control";
-            let reference = Panel::new(velocity()).limit(VELOCITY, "v_max");
-            let mut reference = reference;
+            let mut reference = Panel::new(velocity()).limit(VELOCITY, "v_max");
             for law in Law::COMPARED {
                 let profile = law.whole_move()?;
-                let end = reading.horizon(&*profile);
-                let points = (0..=1000).map(|k| end * f64::from(k) / 1000.0);
-                reference =
-                    reference.line(law.id(), law.role(), points.map(|t| (t, profile.sample(t).velocity)).collect());
+                let points = (0..=1000).map(|k| MOVE_HORIZON * f64::from(k) / 1000.0);
+                reference = reference.line(
+                    law.id(),
+                    law.role(),
+                    points.map(|t| (t, profile.sample(t).velocity)).collect(),
+                );
             }
             outcome.figure(Figure::new("fig8", title, Quantity::time()).panel(panel).panel(reference));
         } else {
-            readings = readings.panel(Panel { y: Quantity::new(reading.title, "e", "um"), ..panel });
+            readings = readings
+                .panel(Panel { y: Quantity::new(&format!("{}: error", reading.title), "e", "um"), ..panel });
         }
     }
     outcome.figure(readings);
@@ -210,7 +216,7 @@ fn sampled_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
     let mut figure = Figure::new("fig8-2500hz", title, Quantity::time());
     for (prefix, encoder, name) in [
         ("peak-error-2500hz", false, "error, ideal sensor"),
-        ("peak-error-2500hz-encoder", true, "error, 1 um encoder"),
+        ("peak-error-2500hz-encoder", true, "error, 1 µm encoder"),
     ] {
         for reading in &READINGS {
             context.progress.say(&format!("{}, 2.5 kHz", reading.title));
@@ -219,7 +225,7 @@ fn sampled_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
                 let reference = reading.reference(law)?;
                 let loop_ = Sampled::of(reading.gains, encoder);
                 let metric = format!("{prefix}/{}/{}", reading.id, law.id());
-                match loop_.run(&*reference, reading.horizon(&*reference))? {
+                match loop_.run(&*reference, reading.horizon())? {
                     Some(course) => {
                         outcome.measure(metric, course.peak().1.abs());
                         courses.push((law, course));
@@ -243,7 +249,7 @@ fn better(outcome: &mut Outcome) -> Result<()> {
     let mut figure = Figure::new("better", title, Quantity::time());
     let controllers = [
         ("better", MASS, 0.5, false, "error, ideal sensor"),
-        ("better-encoder", MASS, 0.5, true, "error, 1 um encoder"),
+        ("better-encoder", MASS, 0.5, true, "error, 1 µm encoder"),
         ("better-mass-only", MASS, 0.0, false, "error, mass alone"),
         ("better-preview-only", FEEDFORWARD, 0.5, false, "error, preview alone"),
     ];
@@ -252,7 +258,7 @@ fn better(outcome: &mut Outcome) -> Result<()> {
         for law in Law::COMPARED {
             let reference = law.whole_move()?;
             let controller = Sampled { gains, feedforward, preview, encoder };
-            if let Some(course) = controller.run(&*reference, reference.duration() + SETTLING)? {
+            if let Some(course) = controller.run(&*reference, MOVE_HORIZON)? {
                 outcome.measure(format!("{id}/{}", law.id()), course.peak().1.abs());
                 panel = panel.line(law.id(), law.role(), course.in_micrometres());
             }

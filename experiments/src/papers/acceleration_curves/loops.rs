@@ -97,7 +97,8 @@ impl Sampled {
             return Ok(None);
         }
         let recording = outcome.completed()?;
-        let points = recording.time().iter().copied().zip(recording.column("error")?.iter().copied()).collect();
+        let points =
+            recording.time().iter().copied().zip(recording.column("error")?.iter().copied()).collect();
         Ok(Some(ErrorCourse { points }))
     }
 }

@@ -37,8 +37,8 @@ pub(super) const CONTROL_EVERY: u32 = 40;
 pub(super) const STEP: f64 = 2e-6;
 /// Time after the start of a ramp for which its error is looked at, s.
 pub(super) const RAMP_HORIZON: f64 = 0.15;
-/// Time after the end of a move for which its error is looked at, s.
-pub(super) const SETTLING: f64 = 0.08;
+/// Time for which the error of a whole move is looked at, s: 80 ms past the end of the slowest.
+pub(super) const MOVE_HORIZON: f64 = 0.37;
 
 /// A motion law of the paper.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -153,7 +153,7 @@ impl Reading {
         if self.whole_move { law.whole_move() } else { law.ramp() }
     }
 
-    pub(super) fn horizon(&self, reference: &dyn Profile) -> f64 {
-        if self.whole_move { reference.duration() + SETTLING } else { RAMP_HORIZON }
+    pub(super) fn horizon(&self) -> f64 {
+        if self.whole_move { MOVE_HORIZON } else { RAMP_HORIZON }
     }
 }

@@ -1,0 +1,380 @@
+//! Draws a figure. Panels, axes, ticks and lines are the plotting library's; the stacking, the labels above the panels,
+//! the legend and the names of the limits are placed here, so that nothing covers data and all panels line up.
+
+use anyhow::{Result, anyhow};
+use kuva::backend::raster::RasterBackend;
+use kuva::backend::svg::SvgBackend;
+use kuva::plot::scatter::MarkerShape;
+use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::render::annotations::{ReferenceLine, ShadedRegion};
+use kuva::render::color::Color;
+use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::plots::Plot;
+use kuva::render::render::{Primitive, Scene, TextAnchor, render_multiple};
+use kuva::render::theme::Theme as Chrome;
+
+use super::simplify::simplify;
+use super::span::Span;
+use super::{Figure, Panel, Role};
+
+/// Light for paper and for files, dark for a dark page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Theme {
+    /// On white.
+    Light,
+    /// On the dark page of the report.
+    Dark,
+}
+
+/// Two widths of one figure, with text of the same size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// 720 px.
+    Wide,
+    /// 360 px, for a phone.
+    Narrow,
+}
+
+/// The figure as one self-contained SVG with a background.
+///
+/// # Errors
+/// What [`Figure::check`] refuses.
+pub fn to_svg(figure: &Figure, width: Width, theme: Theme) -> Result<String> {
+    let scene = draw(figure, width, theme)?;
+    let svg = SvgBackend::new().render_scene(&scene);
+    // Without a view box a picture scaled by a page would be cut instead.
+    let view = format!("<svg viewBox=\"0 0 {} {}\" stroke-linejoin=\"round\" ", scene.width, scene.height);
+    Ok(svg.replacen("<svg ", &view, 1))
+}
+
+/// The figure as a PNG, light, two pixels to a pixel of the SVG.
+///
+/// # Errors
+/// What [`Figure::check`] refuses.
+pub fn to_png(figure: &Figure) -> Result<Vec<u8>> {
+    let scene = draw(figure, Width::Wide, Theme::Light)?;
+    RasterBackend::new()
+        .with_scale(2.0)
+        .render_scene(&scene)
+        .map_err(|error| anyhow!("figure '{}': {error}", figure.id))
+}
+
+const FONT: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
+const TEXT: u32 = 12;
+const TICK_TEXT: u32 = 11;
+/// Width of a letter over its size, of DejaVu Sans: the widest of the fonts named above.
+const LETTER: f64 = 0.6;
+/// Room above a panel for its label.
+const STRIP: f64 = 24.0;
+/// Room below the last panel for the ticks and the name of the x axis.
+const FOOT: f64 = 44.0;
+const LEGEND_LINE: f64 = 20.0;
+
+struct Style {
+    chrome: Chrome,
+    ink: &'static str,
+    muted: &'static str,
+}
+
+impl Theme {
+    fn style(self) -> Style {
+        let (background, ink, muted, axis, grid) = match self {
+            Self::Light => ("#ffffff", "#1a1a1a", "#666666", "#8a8a8a", "#e4e4e4"),
+            Self::Dark => ("#16181d", "#e6e6e6", "#a0a4ab", "#6f747c", "#2c3037"),
+        };
+        let chrome = Chrome {
+            background: background.into(),
+            axis_color: axis.into(),
+            grid_color: grid.into(),
+            tick_color: axis.into(),
+            text_color: ink.into(),
+            ..Chrome::light()
+        };
+        Style { chrome, ink, muted }
+    }
+
+    /// Okabe and Ito's colours; on dark the blue and the vermilion give way to the brighter ones of the set.
+    fn colour(self, role: Role) -> &'static str {
+        match (role, self) {
+            (Role::Ours, Self::Light) => "#0072b2",
+            (Role::Ours, Self::Dark) => "#56b4e9",
+            (Role::Second, Self::Light) => "#d55e00",
+            (Role::Second, Self::Dark) => "#e69f00",
+            (Role::Third, _) => "#009e73",
+            (Role::Fourth, _) => "#cc79a7",
+            (Role::Reference, Self::Light) => "#767676",
+            (Role::Reference, Self::Dark) => "#9a9a9a",
+        }
+    }
+}
+
+/// Where things are, in px.
+struct Geometry {
+    width: f64,
+    left: f64,
+    right: f64,
+    plot: f64,
+}
+
+fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
+    figure.check()?;
+    let style = theme.style();
+    let geometry = geometry(figure, width);
+    let legend = place(entries(figure, theme), &geometry);
+    let legend_lines = legend.last().map_or(0.0, |entry| entry.2 + 1.0);
+    let top = 6.0 + LEGEND_LINE * legend_lines;
+    let step = STRIP + geometry.plot;
+    let height = top + step * figure.panels.len() as f64 + FOOT;
+
+    let mut scene = Scene::new(geometry.width, height);
+    scene.background_color = Some(style.chrome.background.clone());
+    scene.text_color = Some(style.ink.to_owned());
+    scene.font_family = Some(FONT.to_owned());
+    for (entry, x, line) in legend {
+        draw_entry(&mut scene, &entry, geometry.left + x, 6.0 + LEGEND_LINE * (line + 0.5), &style);
+    }
+    let xs = figure.panels.iter().flat_map(|panel| {
+        let data = panel.columns().flat_map(|(_, points)| points.iter().map(|(x, _)| *x));
+        data.chain(panel.bands.iter().flat_map(|band| [band.from, band.to]))
+    });
+    let x = Span::of(xs, 0.0, if width == Width::Wide { 8.0 } else { 4.0 });
+    for (n, panel) in figure.panels.iter().enumerate() {
+        let last = n + 1 == figure.panels.len();
+        let y = panel_span(panel, if geometry.plot > 200.0 { 7.0 } else { 5.0 });
+        let start = top + step * n as f64;
+        let plot = render_multiple(
+            plots(panel, (x, y), &geometry, theme),
+            layout(panel, (x, y), &geometry, &style, last),
+        );
+        let transform = Some(format!("translate(0,{start})"));
+        scene.add(Primitive::GroupStart { transform, title: None, extra_attrs: None });
+        // All data are inside the axes. The clips, whose definitions stay behind too, are named from a counter that
+        // differs from run to run.
+        let clips = |e: &Primitive| matches!(e, Primitive::ClipStart { .. } | Primitive::ClipEnd);
+        plot.elements.into_iter().filter(|e| !clips(e)).for_each(|element| scene.add(element));
+        scene.add(Primitive::GroupEnd);
+        text(
+            &mut scene,
+            (geometry.left, start + STRIP - 7.0),
+            &panel.y.label(),
+            TEXT,
+            TextAnchor::Start,
+            style.ink,
+        );
+        name_limits(&mut scene, panel, y, start + STRIP, &geometry, &style);
+    }
+    let middle = 0.5 * (geometry.left + geometry.width - geometry.right);
+    text(&mut scene, (middle, height - 8.0), &figure.x.label(), TEXT, TextAnchor::Middle, style.ink);
+    Ok(scene)
+}
+
+fn geometry(figure: &Figure, width: Width) -> Geometry {
+    let stacked = figure.panels.len() > 1;
+    let (width, plot) = match width {
+        Width::Wide => (720.0, if stacked { 140.0 } else { 300.0 }),
+        Width::Narrow => (360.0, if stacked { 110.0 } else { 210.0 }),
+    };
+    let tick_letters = figure.panels.iter().map(|panel| {
+        let y = panel_span(panel, 5.0);
+        [y.from, y.to]
+            .map(|end| y.tick((end / y.step).trunc() * y.step).chars().count())
+            .into_iter()
+            .max()
+            .unwrap_or(0)
+    });
+    let letters = tick_letters.max().unwrap_or(0) as f64;
+    let limits = figure.panels.iter().flat_map(|panel| &panel.limits);
+    let name = limits.map(|limit| limit.label.chars().count()).max().unwrap_or(0) as f64;
+    Geometry {
+        width,
+        left: (letters * LETTER * 1.08 * f64::from(TICK_TEXT) + 14.0).max(34.0),
+        right: if name > 0.0 { name * LETTER * f64::from(TICK_TEXT) + 14.0 } else { 16.0 },
+        plot,
+    }
+}
+
+/// The vertical axis of a panel: all data and limits, and a little room.
+fn panel_span(panel: &Panel, ticks: f64) -> Span {
+    let data = panel.columns().flat_map(|(_, points)| points.iter().map(|(_, y)| *y));
+    Span::of(data.chain(panel.limits.iter().map(|limit| limit.value)), 0.06, ticks)
+}
+
+fn layout(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, style: &Style, last: bool) -> Layout {
+    let foot = if last { FOOT } else { 0.0 };
+    let mut layout = Layout::new((x.from, x.to), (y.from, y.to))
+        .with_width(geometry.width)
+        .with_height(STRIP + geometry.plot + foot)
+        .with_force_margins(geometry.left, geometry.right)
+        .with_force_margins_y(STRIP, foot)
+        .with_box_axes()
+        .with_x_axis_min(x.from)
+        .with_x_axis_max(x.to)
+        .with_y_axis_min(y.from)
+        .with_y_axis_max(y.to)
+        .with_x_tick_step(x.step)
+        .with_y_tick_step(y.step)
+        .with_x_tick_format(ticks(x))
+        .with_y_tick_format(ticks(y))
+        .with_tick_size(TICK_TEXT)
+        .with_tick_length(4.0)
+        .with_grid_line_width(0.6)
+        .with_theme(style.chrome.clone());
+    layout.suppress_x_ticks = !last;
+    for band in &panel.bands {
+        layout = layout.with_shaded_region(
+            ShadedRegion::vertical(band.from, band.to).with_color(style.ink).with_opacity(0.06),
+        );
+    }
+    for limit in &panel.limits {
+        let line = ReferenceLine::horizontal(limit.value).with_color(style.muted).with_dasharray("5 4");
+        layout = layout.with_reference_line(line);
+    }
+    layout
+}
+
+fn ticks(axis: Span) -> TickFormat {
+    TickFormat::Custom(std::sync::Arc::new(move |x| axis.tick(x)))
+}
+
+fn plots(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, theme: Theme) -> Vec<Plot> {
+    let across = geometry.width - geometry.left - geometry.right;
+    let scale = (across / (x.to - x.from), geometry.plot / (y.to - y.from));
+    let mut plots: Vec<Plot> = Vec::new();
+    for series in &panel.series {
+        // A fiftieth of a pixel cannot be seen, at twice the size either.
+        let points = simplify(&series.points, scale, 0.02);
+        let width = if series.role == Role::Reference { 1.4 } else { 1.8 };
+        let line =
+            LinePlot::new().with_data(points).with_color(theme.colour(series.role)).with_stroke_width(width);
+        plots.push(line.into());
+    }
+    for (n, marks) in panel.marks.iter().enumerate() {
+        let points = ScatterPlot::new()
+            .with_data(marks.points.iter().copied())
+            .with_color(theme.style().ink)
+            .with_marker(marker(n))
+            .with_size(4.0);
+        plots.push(points.into());
+    }
+    plots
+}
+
+fn marker(n: usize) -> MarkerShape {
+    match n % 3 {
+        0 => MarkerShape::Circle,
+        1 => MarkerShape::Square,
+        _ => MarkerShape::Triangle,
+    }
+}
+
+/// Names the limits at the right edge, where no data are, pushed apart where they would touch.
+fn name_limits(scene: &mut Scene, panel: &Panel, y: Span, top: f64, geometry: &Geometry, style: &Style) {
+    let place = |value: f64| top + (1.0 - y.fraction(value)) * geometry.plot;
+    let mut names: Vec<(f64, &str)> =
+        panel.limits.iter().map(|l| (place(l.value), l.label.as_str())).collect();
+    names.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut free = f64::NEG_INFINITY;
+    for (at, name) in names {
+        let at = at.max(free);
+        free = at + f64::from(TICK_TEXT) + 1.0;
+        let x = geometry.width - geometry.right + 6.0;
+        text(scene, (x, at + 4.0), &name.replace('-', "−"), TICK_TEXT, TextAnchor::Start, style.muted);
+    }
+}
+
+/// What stands before a name in the legend.
+#[derive(Clone, Copy, PartialEq)]
+enum Swatch {
+    Line(&'static str),
+    Mark(usize),
+    Band,
+}
+
+/// Every named thing once; nothing where the labels of the panels say it all.
+fn entries(figure: &Figure, theme: Theme) -> Vec<(Swatch, String)> {
+    let mut entries: Vec<(Swatch, String)> = Vec::new();
+    for panel in &figure.panels {
+        let lines = panel.series.iter().map(|s| (Swatch::Line(theme.colour(s.role)), &s.name));
+        let marks = panel.marks.iter().enumerate().map(|(n, m)| (Swatch::Mark(n), &m.name));
+        let bands = panel.bands.iter().map(|b| (Swatch::Band, &b.name));
+        for (swatch, name) in lines.chain(marks).chain(bands) {
+            let entry = (swatch, name.clone());
+            if !name.is_empty() && !entries.contains(&entry) {
+                entries.push(entry);
+            }
+        }
+    }
+    let one_line = matches!(entries.as_slice(), [(Swatch::Line(_), _)]);
+    if one_line { Vec::new() } else { entries }
+}
+
+type Placed = ((Swatch, String), f64, f64);
+
+/// Sets the entries side by side above the panels; x from the left edge of the panels and the line of each.
+fn place(entries: Vec<(Swatch, String)>, geometry: &Geometry) -> Vec<Placed> {
+    let across = geometry.width - geometry.left - 8.0;
+    let (mut x, mut line) = (0.0, 0.0);
+    let mut placed = Vec::with_capacity(entries.len());
+    for entry in entries {
+        let wide = 46.0 + LETTER * f64::from(TEXT) * entry.1.chars().count() as f64;
+        if x > 0.0 && x + wide > across + 18.0 {
+            (x, line) = (0.0, line + 1.0);
+        }
+        placed.push((entry, x, line));
+        x += wide;
+    }
+    placed
+}
+
+fn draw_entry(scene: &mut Scene, (swatch, name): &(Swatch, String), x: f64, y: f64, style: &Style) {
+    let square = |x: f64, width: f64, fill: &str, opacity: f64| Primitive::Rect {
+        x,
+        y: y - width.min(10.0) / 2.0,
+        width,
+        height: width.min(10.0),
+        fill: Color::from(fill),
+        stroke: None,
+        stroke_width: None,
+        opacity: Some(opacity),
+    };
+    match *swatch {
+        Swatch::Line(colour) => scene.add(Primitive::Line {
+            x1: x,
+            y1: y,
+            x2: x + 20.0,
+            y2: y,
+            stroke: Color::from(colour),
+            stroke_width: 2.2,
+            stroke_dasharray: None,
+        }),
+        Swatch::Band => scene.add(square(x, 20.0, style.ink, 0.12)),
+        Swatch::Mark(n) if n % 3 == 1 => scene.add(square(x + 6.0, 8.0, style.ink, 1.0)),
+        Swatch::Mark(n) if n % 3 == 2 => {
+            text(scene, (x + 10.0, y + 4.5), "▲", TEXT, TextAnchor::Middle, style.ink);
+        }
+        Swatch::Mark(_) => scene.add(Primitive::Circle {
+            cx: x + 10.0,
+            cy: y,
+            r: 4.0,
+            fill: Color::from(style.ink),
+            fill_opacity: None,
+            stroke: None,
+            stroke_width: None,
+        }),
+    }
+    text(scene, (x + 26.0, y + 4.5), name, TEXT, TextAnchor::Start, style.ink);
+}
+
+fn text(scene: &mut Scene, (x, y): (f64, f64), content: &str, size: u32, anchor: TextAnchor, colour: &str) {
+    let color = Some(Color::from(colour));
+    scene.add(Primitive::Text {
+        x,
+        y,
+        content: content.to_owned(),
+        size,
+        anchor,
+        rotate: None,
+        bold: false,
+        color,
+    });
+}
