@@ -12,3 +12,8 @@ pub mod readme;
 pub mod registry;
 pub mod report;
 pub mod row;
+
+/// The README of the repository, whose examples are tests of this crate.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;

@@ -40,7 +40,10 @@ fn what_cannot_be_met_is_one_line_and_code_2() {
     refused(&root, &["run", "--out", "file"], "file");
     refused(&root, &["run", "--out", "/"], "/");
     refused(&root, &["run", "--out", ""], "--out");
-    refused(&root, &["readme"], "README.md");
+    // Not through the program, which would find the repository's own README above this folder.
+    let done = bench(&[DEMO], &root, &["readme"]);
+    assert_eq!((done.code, done.err.lines().count()), (2, 1), "{}", done.err);
+    assert!(done.err.contains("README.md"));
     assert_eq!(std::fs::read_to_string(root.join("file")).unwrap(), "mine");
 }
 

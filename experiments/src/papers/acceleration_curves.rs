@@ -8,8 +8,8 @@ use profiles::{Cosine, Profile, SCurve, Sectioned, SnapLimited, Trapezoid};
 
 use self::loops::{ErrorCourse, Sampled, continuous};
 use self::setup::{
-    ACCELERATION, DISTANCE, FEEDFORWARD, JERK, Law, MASS, MOVE_HORIZON, READINGS, SNAP, VELOCITY, WHOLE_MOVE,
-    limits,
+    ACCELERATION, DISTANCE, FEEDFORWARD, JERK, Law, MASS, MOVE_HORIZON, READINGS, SNAP, STEP, VELOCITY,
+    WHOLE_MOVE, limits,
 };
 use crate::experiment::{Context, Experiment, Outcome, Source};
 use crate::figure::{Figure, Panel, Quantity, Role};
@@ -165,12 +165,13 @@ fn error_panel(courses: &[(Law, ErrorCourse)]) -> Panel {
 fn position_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
     let mut readings =
         Figure::new("fig8-readings", "Fig. 8 read in three other ways, continuous control", Quantity::time());
+    let step = if context.quick { 5.0 * STEP } else { STEP };
     for reading in &READINGS {
         context.progress.say(reading.title);
         let mut courses = Vec::new();
         for law in Law::COMPARED {
             let reference = reading.reference(law)?;
-            let course = continuous(reading.gains, &*reference, reading.horizon())?;
+            let course = continuous(reading.gains, &*reference, reading.horizon(), step)?;
             outcome.measure(format!("peak-error/{}/{}", reading.id, law.id()), course.peak().1.abs());
             courses.push((law, course));
         }

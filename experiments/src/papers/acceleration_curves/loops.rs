@@ -6,7 +6,7 @@ use plants::nalgebra::{self, SVector, vector};
 use plants::{Clock, Encoder, LinearMotor, Plant, Simulation, ZeroOrderHold, integrate};
 use profiles::Profile;
 
-use super::setup::{CONTROL_EVERY, CONTROL_RATE, FEEDFORWARD, MASS, RESOLUTION, STEP};
+use super::setup::{CONTROL_EVERY, CONTROL_RATE, FEEDFORWARD, MASS, RESOLUTION};
 
 /// This file, from the root of the repository.
 pub(super) const FILE: &str = file!();
@@ -34,7 +34,12 @@ impl ErrorCourse {
 }
 
 /// Figure 2 in continuous time: `F = FF a_r + K_P e + K_I int e + K_D e'` on `m x'' = F`.
-pub(super) fn continuous(gains: PidGains, reference: &dyn Profile, horizon: f64) -> Result<ErrorCourse> {
+pub(super) fn continuous(
+    gains: PidGains,
+    reference: &dyn Profile,
+    horizon: f64,
+    step: f64,
+) -> Result<ErrorCourse> {
     let motor = LinearMotor::new(MASS, 0.0)?;
     let closed_loop = |t: f64, x: &SVector<f64, 3>| {
         let r = reference.sample(t);
@@ -43,9 +48,9 @@ pub(super) fn continuous(gains: PidGains, reference: &dyn Profile, horizon: f64)
         let motion = motor.derivative(&vector![x[0], x[1]], &vector![force]);
         vector![motion[0], motion[1], e]
     };
-    let steps = (horizon / STEP).round() as u64;
+    let steps = (horizon / step).round() as u64;
     let mut points = Vec::with_capacity(steps as usize + 1);
-    integrate(closed_loop, vector![0.0, 0.0, 0.0], 0.0, STEP, steps, |t, x| {
+    integrate(closed_loop, vector![0.0, 0.0, 0.0], 0.0, step, steps, |t, x| {
         points.push((t, reference.sample(t).position - x[0]));
     })?;
     Ok(ErrorCourse { points })
@@ -100,5 +105,55 @@ impl Sampled {
         let points =
             recording.time().iter().copied().zip(recording.column("error")?.iter().copied()).collect();
         Ok(Some(ErrorCourse { points }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::papers::acceleration_curves::setup::{Law, RAMP_HORIZON, STEP, WHOLE_MOVE};
+
+    /// The continuous error in closed form: `m e'' = (m - FF) a - K_P e - K_I int e - K_D e'` is linear, so the error
+    /// of a ramp is a sum over its three poles of `|response|` of the ramp at that pole.
+    #[test]
+    fn the_continuous_error_is_the_response_of_its_poles() {
+        use profiles::Complex;
+        let PidGains { kp, ki, kd } = WHOLE_MOVE.gains;
+        let ramp = Law::SCurve.ramp().expect("ramp");
+        let end = ramp.duration();
+        let course = continuous(WHOLE_MOVE.gains, &*ramp, end, STEP).expect("course");
+        let model = plants::StateSpace::<3, 1, 1>::new(
+            nalgebra::matrix![0.0, 1.0, 0.0; 0.0, 0.0, 1.0; -ki / MASS, -kp / MASS, -kd / MASS],
+            nalgebra::vector![0.0, 0.0, 1.0],
+            nalgebra::matrix![0.0, 1.0, 0.0],
+            nalgebra::matrix![0.0],
+        )
+        .expect("model");
+        let poles = model.poles().expect("poles");
+        // e(T) = (1 - FF/m) sum of p / prod (p - q) times response(p): residues of s / (s^3 + ...).
+        let mut error = Complex::new(0.0, 0.0);
+        for (k, p) in poles.iter().enumerate() {
+            let others = poles.iter().enumerate().filter(|(j, _)| *j != k);
+            let product = others.fold(Complex::new(1.0, 0.0), |product, (_, q)| product * (p - q));
+            error += p / product * ramp.response(*p);
+        }
+        let closed = (1.0 - FEEDFORWARD / MASS) * error.re;
+        let simulated = course.points.last().expect("points").1;
+        assert!((closed - simulated).abs() < 1e-6 * closed.abs(), "{closed} and {simulated}");
+    }
+
+    #[test]
+    fn the_paper_s_ramp_times_are_their_closed_forms() {
+        let pi = std::f64::consts::PI;
+        for (law, time) in [(Law::SCurve, 0.07), (Law::SnapLimited, 0.086), (Law::Cosine, pi * 0.2 / 8.0)] {
+            assert!((law.ramp().expect("ramp").duration() - time).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_fine_step_of_the_continuous_loop_changes_nothing() {
+        let ramp = Law::Cosine.ramp().expect("ramp");
+        let peak = |step| continuous(WHOLE_MOVE.gains, &*ramp, RAMP_HORIZON, step).expect("course").peak().1;
+        assert!((peak(STEP) / peak(0.25 * STEP) - 1.0).abs() < 1e-8);
     }
 }
