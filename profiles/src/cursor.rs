@@ -47,10 +47,13 @@ pub struct Cursor<P, F> {
 /// A section about one tick: Taylor coefficients of the position and of its derivatives, and a sine.
 #[derive(Debug, Clone, Copy, Default)]
 struct Expansion<F> {
-    /// Of position and velocity, highest power first: side by side, so that both take one vector instruction.
-    position_velocity: [[F; 2]; 5],
-    /// Of acceleration and jerk.
-    acceleration_jerk: [[F; 2]; 3],
+    /// Highest powers of position and velocity, from the fourth down, side by side: what stands side by side takes
+    /// one vector instruction.
+    high: [[F; 2]; 3],
+    /// Second power of acceleration and jerk.
+    square: [F; 2],
+    /// First power and constant of position, velocity, acceleration and jerk.
+    low: [[F; 4]; 2],
     amplitude: F,
     phase: F,
     angular_frequency: F,
@@ -139,9 +142,9 @@ impl<F: Real> Expansion<F> {
             section.polynomial.advanced(x);
         let cast = F::from_f64;
         Self {
-            position_velocity: [[s / 24.0, 0.0], [j / 6.0, s / 6.0], [a / 2.0, j / 2.0], [v, a], [p, v]]
-                .map(|pair| pair.map(cast)),
-            acceleration_jerk: [[s / 2.0, 0.0], [j, s], [a, j]].map(|pair| pair.map(cast)),
+            high: [[s / 24.0, 0.0], [j / 6.0, s / 6.0], [a / 2.0, j / 2.0]].map(|pair| pair.map(cast)),
+            square: [s / 2.0, 0.0].map(cast),
+            low: [[v, a, j, s], [p, v, a, j]].map(|row| row.map(cast)),
             amplitude: cast(section.amplitude),
             phase: cast(section.angular_frequency * x),
             angular_frequency: cast(section.angular_frequency),
@@ -150,12 +153,14 @@ impl<F: Real> Expansion<F> {
 
     #[inline(always)]
     fn at(&self, x: F) -> Sample<F> {
-        let horner = |[a, b]: [F; 2], [c, d]: [F; 2]| [a * x + c, b * x + d];
-        let [c4, c3, c2, c1, c0] = self.position_velocity;
-        let [position, velocity] = horner(horner(horner(horner(c4, c3), c2), c1), c0);
-        let [d2, d1, d0] = self.acceleration_jerk;
-        let [acceleration, jerk] = horner(horner(d2, d1), d0);
-        let [_, snap] = d1;
+        let pair = |[a, b]: [F; 2], [c, d]: [F; 2]| [a * x + c, b * x + d];
+        let row = |[a, b, c, d]: [F; 4], [e, f, g, h]: [F; 4]| [a * x + e, b * x + f, c * x + g, d * x + h];
+        let [fourth, third, second] = self.high;
+        let [first, constant] = self.low;
+        let [p, v] = pair(pair(fourth, third), second);
+        let [a, j] = self.square;
+        let [position, velocity, acceleration, jerk] = row(row([p, v, a, j], first), constant);
+        let [_, _, _, snap] = first;
         Sample { position, velocity, acceleration, jerk, snap }
     }
 

@@ -97,16 +97,12 @@ impl Section {
 /// `t - anchor`, brought into the section.
 #[inline]
 pub(crate) fn local_time(t: f64, anchor: f64, reach: f64) -> f64 {
-    // Comparisons in this order need no NaN handling: an instant is never NaN here.
+    // Written so that each line is one minimum or maximum instruction; an instant is never NaN here.
+    let from = if reach < 0.0 { reach } else { 0.0 };
+    let to = if reach > 0.0 { reach } else { 0.0 };
     let x = t - anchor;
-    let (from, to) = if reach < 0.0 { (reach, 0.0) } else { (0.0, reach) };
-    if x < from {
-        from
-    } else if x > to {
-        to
-    } else {
-        x
-    }
+    let x = if x > from { x } else { from };
+    if x < to { x } else { to }
 }
 
 /// `motion` plus `amplitude sin(w x)` and its derivatives.

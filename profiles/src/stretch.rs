@@ -14,20 +14,16 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// From `shortest` to `duration`, s; what moves before or after it is a ramp and keeps its speeds.
-    pub(crate) fn new(
-        shortest: f64,
-        duration: f64,
-        before: Sample,
-        after: Sample,
-    ) -> Result<Self, PlanError> {
+    /// From `shortest` to `duration`, s; what moves before or after it, with these velocities in m/s, is a ramp and
+    /// keeps its speeds.
+    pub(crate) fn new(shortest: f64, duration: f64, before: f64, after: f64) -> Result<Self, PlanError> {
         if !(duration.is_finite() && duration >= shortest && shortest > 0.0) {
             return Err(PlanError::Duration { requested: duration, shortest });
         }
         Ok(Self {
             ratio: duration / shortest,
             rate: shortest / duration,
-            keeps_speeds: before.velocity != 0.0 || after.velocity != 0.0,
+            keeps_speeds: before != 0.0 || after != 0.0,
             shortest,
             duration,
         })
@@ -43,20 +39,25 @@ impl Stretch {
         length * self.ratio
     }
 
-    /// Where a motion goes.
-    pub(crate) fn motion(&self, motion: Sample) -> Sample {
-        let (position, speed) = self.scales();
-        Sample {
-            position: motion.position * position,
-            velocity: motion.velocity * speed,
-            acceleration: motion.acceleration * (speed * self.rate),
-            jerk: motion.jerk * (speed * self.rate * self.rate),
-            snap: motion.snap * (speed * self.rate * self.rate * self.rate),
-        }
+    /// What a position becomes, m: longer for a ramp, the same for a move.
+    pub(crate) fn position(&self, position: f64) -> f64 {
+        if self.keeps_speeds { position * self.ratio } else { position }
     }
 
-    /// The factors of position and of velocity.
-    pub(crate) fn scales(&self) -> (f64, f64) {
-        if self.keeps_speeds { (self.ratio, 1.0) } else { (1.0, self.rate) }
+    /// What a velocity becomes, m/s: the same for a ramp, lower for a move.
+    pub(crate) fn speed(&self, velocity: f64) -> f64 {
+        if self.keeps_speeds { velocity } else { velocity * self.rate }
+    }
+
+    /// What a motion becomes.
+    pub(crate) fn motion(&self, motion: Sample) -> Sample {
+        let rate = self.rate;
+        Sample {
+            position: self.position(motion.position),
+            velocity: self.speed(motion.velocity),
+            acceleration: self.speed(motion.acceleration) * rate,
+            jerk: self.speed(motion.jerk) * (rate * rate),
+            snap: self.speed(motion.snap) * (rate * rate * rate),
+        }
     }
 }

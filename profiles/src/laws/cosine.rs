@@ -102,8 +102,7 @@ impl Cosine {
     /// # Errors
     /// A duration that is not finite or shorter than the motion's own.
     pub fn stretched_to(&self, duration: f64) -> Result<Self, PlanError> {
-        let stretch = Stretch::new(self.duration(), duration, self.before, self.after)?;
-        let (position, speed) = stretch.scales();
+        let stretch = Stretch::new(self.duration(), duration, self.before.velocity, self.after.velocity)?;
         let sections = self.sections.map(|s| {
             let (start, end, anchor) = (stretch.time(s.start), stretch.time(s.end), stretch.time(s.anchor));
             Section {
@@ -112,15 +111,15 @@ impl Cosine {
                 anchor,
                 reach: stretch.length(s.reach),
                 polynomial: stretch.motion(s.polynomial),
-                amplitude: s.amplitude * position,
-                angular_frequency: s.angular_frequency * (speed / position),
+                amplitude: stretch.position(s.amplitude),
+                angular_frequency: s.angular_frequency * (self.duration() / duration),
             }
         });
         Ok(Self {
             sections,
             before: stretch.motion(self.before),
             after: stretch.motion(self.after),
-            change: self.change * speed,
+            change: stretch.speed(self.change),
         })
     }
 

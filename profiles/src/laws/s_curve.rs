@@ -2,7 +2,7 @@
 
 use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within};
 use crate::error::PlanError;
-use crate::polynomial::{Piecewise, Ramp};
+use crate::polynomial::{Piece, Piecewise, Ramp};
 use crate::quantities::{Limits, Real, Sample};
 
 /// The S-curve: the fastest motion within limits of velocity, acceleration and jerk.
@@ -39,7 +39,7 @@ impl SCurve {
         let along = limits.along(distance);
         let jerk = Jerk::of(&along)?;
         if distance == 0.0 {
-            return Ok(Self(Piecewise::empty(Sample::default())));
+            return Ok(Self(Piecewise::empty(0.0)));
         }
         let (velocity, up, down) =
             (along.velocity().upper, along.acceleration().upper, -along.acceleration().lower);
@@ -50,9 +50,9 @@ impl SCurve {
         };
         // Every candidate is verified: the sections must add up to the distance.
         representable("duration", plan.duration)?;
-        let ([_, _, _, cruise, falling, ..], [_, _, _, reach, ..]) = (plan.motions, plan.reaches);
-        let met = cruise.advanced(reach).position;
-        if (met - falling.position).abs() <= 1e-12 * distance.abs() {
+        let [_, _, _, cruise, falling, ..] = &plan.pieces;
+        let met = cruise.motion.position + cruise.motion.velocity * cruise.reach;
+        if (met - falling.motion.position).abs() <= 1e-12 * distance.abs() {
             Ok(Self(plan))
         } else {
             Err(PlanError::Range { quantity: "distance", value: met })
@@ -70,7 +70,7 @@ impl SCurve {
         let along = limits.along(change);
         let jerk = Jerk::of(&along)?;
         if change == 0.0 {
-            return Ok(Self(Piecewise::empty(Sample::cruising(0.0, from))));
+            return Ok(Self(Piecewise::empty(from)));
         }
         let ramp = ramp(change, along.acceleration().upper, jerk);
         representable("duration", ramp.duration)?;
@@ -119,18 +119,18 @@ fn ramp(change: f64, limit: f64, jerk: Jerk) -> Ramp<3> {
         + peak * hold * (fall + 0.5 * hold)
         + peak * fall * fall / 3.0;
     let duration = rise + rest;
-    let after = Sample::cruising(sign * way, change);
+    let signed_way = sign * way;
+    let settled = Sample::cruising(signed_way, change);
     Ramp {
         ends: [rise, rise + hold, duration],
-        anchors: [0.0, rise, duration],
-        reaches: [rise, hold, -fall],
-        motions: [
-            Sample { jerk: sign * jerk.rising, ..Sample::default() },
-            steady,
-            Sample { jerk: -sign * jerk.falling, ..after },
+        pieces: [
+            Piece::new(0.0, rise, Sample { jerk: sign * jerk.rising, ..Sample::default() }),
+            Piece::new(rise, hold, steady),
+            Piece::new(duration, -fall, Sample { jerk: -sign * jerk.falling, ..settled }),
         ],
         duration,
-        after,
+        way: signed_way,
+        speed: change,
     }
 }
 
@@ -162,19 +162,21 @@ fn symmetric_move(distance: f64, velocity: f64, acceleration: f64, jerk: f64) ->
     let speed = (peak * t2).min(velocity);
     let signed_jerk = sign * jerk;
     let signed_peak = sign * peak;
-    let after = Sample::cruising(0.5 * sign * speed * (t2 + t3), sign * speed);
+    let duration = t2 + t3;
+    let (velocity, way) = (sign * speed, 0.5 * sign * speed * duration);
     let gained = 0.5 * signed_peak * t3;
+    let steady = Sample { acceleration: signed_peak, ..Sample::cruising(gained * t3 * (1.0 / 3.0), gained) };
+    let settled = Sample { jerk: -signed_jerk, ..Sample::cruising(way, velocity) };
     let ramp = Ramp {
-        ends: [t3, t2, t2 + t3],
-        anchors: [0.0, t3, t2 + t3],
-        reaches: [t3, t2 - t3, -t3],
-        motions: [
-            Sample { jerk: signed_jerk, ..Sample::default() },
-            Sample { acceleration: signed_peak, ..Sample::cruising(gained * t3 * (1.0 / 3.0), gained) },
-            Sample { jerk: -signed_jerk, ..after },
+        ends: [t3, t2, duration],
+        pieces: [
+            Piece::new(0.0, t3, Sample { jerk: signed_jerk, ..Sample::default() }),
+            Piece::new(t3, t2 - t3, steady),
+            Piece::new(duration, -t3, settled),
         ],
-        duration: t2 + t3,
-        after,
+        duration,
+        way,
+        speed: velocity,
     };
     ramp.move_to(&ramp, t1, distance)
 }
@@ -184,7 +186,7 @@ fn asymmetric_move(distance: f64, velocity: f64, up: f64, down: f64, jerk: Jerk)
     let length = distance.abs();
     let way = |speed: f64| {
         let (first, second) = (ramp(speed, up, jerk), ramp(speed, down, jerk));
-        first.after.position + second.after.position
+        first.way + second.way
     };
     let speed = if velocity < f64::INFINITY && way(velocity) <= length {
         velocity
@@ -193,7 +195,7 @@ fn asymmetric_move(distance: f64, velocity: f64, up: f64, down: f64, jerk: Jerk)
     };
     let sign = 1.0_f64.copysign(distance);
     let (rising, falling) = (ramp(sign * speed, up, jerk), ramp(sign * speed, down, jerk));
-    let cruise = (length - rising.after.position.abs() - falling.after.position.abs()).max(0.0) / speed;
+    let cruise = (length - rising.way.abs() - falling.way.abs()).max(0.0) / speed;
     rising.move_to(&falling, rising.duration + cruise, distance)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within, symmetric_limits};
 use crate::error::PlanError;
-use crate::polynomial::{Piecewise, Ramp};
+use crate::polynomial::{Piece, Piecewise, Ramp};
 use crate::quantities::{Limits, Real, Sample};
 
 /// The motion with a velocity cubic in time, within limits of velocity, acceleration, jerk and derivative of jerk.
@@ -36,14 +36,14 @@ impl SnapLimited {
         let distance = finite_distance(distance)?;
         let bounds = Bounds::of(limits, limits.along(distance).velocity().upper)?;
         if distance == 0.0 {
-            return Ok(Self(Piecewise::empty(Sample::default())));
+            return Ok(Self(Piecewise::empty(0.0)));
         }
         let length = distance.abs();
         let averages = bounds.averages(length);
         let ramp = bounds.ramp(averages, 1.0_f64.copysign(distance));
         let t1 = (length / bounds.velocity).max(ramp.duration);
         representable("duration", t1 + ramp.duration)?;
-        let met = ramp.after.velocity * t1;
+        let met = ramp.speed * t1;
         if (met - distance).abs() <= 1e-12 * length {
             Ok(Self(ramp.move_to(&ramp, t1, distance)))
         } else {
@@ -62,14 +62,14 @@ impl SnapLimited {
         let change = to - from;
         let bounds = Bounds::of(limits, change.abs())?;
         if change == 0.0 {
-            return Ok(Self(Piecewise::empty(Sample::cruising(0.0, from))));
+            return Ok(Self(Piecewise::empty(from)));
         }
         let ramp = bounds.ramp(bounds.averages(f64::INFINITY), 1.0_f64.copysign(change));
         representable("duration", ramp.duration)?;
-        if (ramp.after.velocity - change).abs() <= 1e-12 * change.abs() {
+        if (ramp.speed - change).abs() <= 1e-12 * change.abs() {
             Ok(Self(ramp.on_top_of(from, to)))
         } else {
-            Err(PlanError::Range { quantity: "speed", value: ramp.after.velocity })
+            Err(PlanError::Range { quantity: "speed", value: ramp.speed })
         }
     }
 }
@@ -141,7 +141,7 @@ impl Bounds {
         let acceleration = sign * (jerk.abs() * t3).min(self.acceleration);
         let speed = sign * (acceleration.abs() * t2).min(self.velocity);
         let duration = t2 + t3 + t4;
-        let after = Sample::cruising(0.5 * speed * duration, speed);
+        let way = 0.5 * speed * duration;
 
         let rising = Sample { snap, ..Sample::default() };
         let risen = Sample { jerk, snap: 0.0, ..rising.advanced(t4) };
@@ -156,28 +156,29 @@ impl Bounds {
         let steady = Sample { snap: 0.0, ..top };
         // The ramp is the same seen from its end: v(T - x) = V - v(x), p(T - x) = P - V x + p(x).
         let mirrored = |motion: Sample, x: f64| Sample {
-            position: after.position - speed * x + motion.position,
+            position: way - speed * x + motion.position,
             velocity: speed - motion.velocity,
             acceleration: motion.acceleration,
             jerk: -motion.jerk,
             snap: motion.snap,
         };
-        let (rise, late) = (t3 + t4, t2 + t4);
+        let (rise, late, plateau) = (t3 + t4, t2 + t4, t3 - t4);
+        let falling = mirrored(Sample { jerk, snap: 0.0, ..held }, t3);
+        let settled = Sample { snap, ..Sample::cruising(way, speed) };
         Ramp {
             ends: [t4, t3, rise, t2, late, t2 + t3, duration],
-            anchors: [0.0, t4, rise, rise, t2, late, duration],
-            reaches: [t4, t3 - t4, -t4, t2 - rise, t4, t3 - t4, -t4],
-            motions: [
-                rising,
-                risen,
-                top,
-                steady,
-                mirrored(top, rise),
-                mirrored(Sample { jerk, snap: 0.0, ..held }, t3),
-                Sample { snap, ..after },
+            pieces: [
+                Piece::new(0.0, t4, rising),
+                Piece::new(t4, plateau, risen),
+                Piece::new(rise, -t4, top),
+                Piece::new(rise, t2 - rise, steady),
+                Piece::new(t2, t4, mirrored(top, rise)),
+                Piece::new(late, plateau, falling),
+                Piece::new(duration, -t4, settled),
             ],
             duration,
-            after,
+            way,
+            speed,
         }
     }
 }

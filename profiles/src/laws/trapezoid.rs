@@ -2,7 +2,7 @@
 
 use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within};
 use crate::error::PlanError;
-use crate::polynomial::Piecewise;
+use crate::polynomial::{Piece, Piecewise};
 use crate::quantities::{Limits, Real, Sample};
 
 /// The trapezoid of the velocity: the fastest motion within limits of velocity and acceleration.
@@ -58,7 +58,7 @@ impl Trapezoid {
         let up = finite_limit("acceleration", along.acceleration().upper)?;
         let down = finite_limit("acceleration", -along.acceleration().lower)?;
         if length == 0.0 {
-            return Ok(Self(Piecewise::empty(Sample::default())));
+            return Ok(Self(Piecewise::empty(0.0)));
         }
 
         let faster = start_speed.max(stop_speed);
@@ -91,15 +91,14 @@ impl Trapezoid {
         };
         Ok(Self(Piecewise {
             ends: [rise, rise + cruise, duration],
-            anchors: [0.0, rise, duration],
-            reaches: [rise, cruise, -fall],
-            motions: [
-                motion(0.0, start_speed, up),
-                motion(sign * risen, speed, 0.0),
-                motion(distance, stop_speed, -down),
+            pieces: [
+                Piece::new(0.0, rise, motion(0.0, start_speed, up)),
+                Piece::new(rise, cruise, motion(sign * risen, speed, 0.0)),
+                Piece::new(duration, -fall, motion(distance, stop_speed, -down)),
             ],
-            before: Sample::default(),
-            after: Sample::at_rest(distance),
+            before: 0.0,
+            target: distance,
+            after: 0.0,
             duration,
         }))
     }
@@ -115,18 +114,18 @@ impl Trapezoid {
         let change = to - from;
         let limit = finite_limit("acceleration", limits.along(change).acceleration().upper)?;
         if change == 0.0 {
-            return Ok(Self(Piecewise::empty(Sample::cruising(0.0, from))));
+            return Ok(Self(Piecewise::empty(from)));
         }
         let duration = representable("duration", change.abs() / limit)?;
-        let after = Sample::cruising(0.5 * (from + to) * duration, to);
+        let target = 0.5 * (from + to) * duration;
         let motion = Sample { acceleration: limit.copysign(change), ..Sample::cruising(0.0, from) };
+        let rest = Piece::new(duration, 0.0, Sample::cruising(target, to));
         Ok(Self(Piecewise {
             ends: [duration; 3],
-            anchors: [0.0, duration, duration],
-            reaches: [duration, 0.0, 0.0],
-            motions: [motion, after, after],
-            before: Sample::cruising(0.0, from),
-            after,
+            pieces: [Piece::new(0.0, duration, motion), rest, rest],
+            before: from,
+            target,
+            after: to,
             duration,
         }))
     }

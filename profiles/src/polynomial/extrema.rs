@@ -93,6 +93,7 @@ fn velocity_root(motion: &Sample, mut left: f64, mut right: f64) -> Option<f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::polynomial::Piece;
 
     #[test]
     fn turning_points_inside_a_section_are_found() {
@@ -100,11 +101,10 @@ mod tests {
         let motion = Sample { acceleration: -1.0, snap: 1.0, ..Sample::default() };
         let profile = Piecewise::<2> {
             ends: [3.0, 6.0],
-            anchors: [3.0, 3.0],
-            reaches: [-3.0, 3.0],
-            motions: [motion; 2],
-            before: Sample::default(),
-            after: Sample::default(),
+            pieces: [Piece::new(3.0, -3.0, motion), Piece::new(3.0, 3.0, motion)],
+            before: 0.0,
+            target: 0.0,
+            after: 0.0,
             duration: 6.0,
         };
         let extrema = over(&profile);

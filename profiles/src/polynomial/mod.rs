@@ -5,5 +5,6 @@ mod piecewise;
 mod ramp;
 pub(crate) mod response;
 
+pub(crate) use piecewise::Piece;
 pub use piecewise::Piecewise;
 pub(crate) use ramp::Ramp;

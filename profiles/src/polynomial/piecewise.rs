@@ -18,31 +18,59 @@ use crate::stretch::Stretch;
 pub struct Piecewise<const N: usize> {
     /// End of each section, s; never decreasing, sections of no length allowed.
     pub(crate) ends: [f64; N],
-    /// Time about which each section is expanded, s.
-    pub(crate) anchors: [f64; N],
-    /// Planned length of each section, s, negative where the anchor is its end.
-    pub(crate) reaches: [f64; N],
-    /// Motion of each section at its anchor.
-    pub(crate) motions: [Sample; N],
-    /// The motion before the start, at the start.
-    pub(crate) before: Sample,
-    /// The motion after the end, at the end.
-    pub(crate) after: Sample,
+    pub(crate) pieces: [Piece; N],
+    /// Velocity before the start, m/s.
+    pub(crate) before: f64,
+    /// Position at the end, m, and velocity after it, m/s.
+    pub(crate) target: f64,
+    pub(crate) after: f64,
     pub(crate) duration: f64,
 }
 
+/// A Taylor polynomial and where it holds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Piece {
+    /// Time about which it is expanded, s.
+    pub(crate) anchor: f64,
+    /// Planned length of its section, s, negative where the anchor is the end.
+    pub(crate) reach: f64,
+    /// The motion at the anchor.
+    pub(crate) motion: Sample,
+}
+
+impl Piece {
+    #[inline]
+    pub(crate) fn new(anchor: f64, reach: f64, motion: Sample) -> Self {
+        Self { anchor, reach, motion }
+    }
+}
+
 impl<const N: usize> Piecewise<N> {
-    /// A motion of no duration at `position`.
-    pub(crate) fn empty(before: Sample) -> Self {
+    /// No motion but a constant velocity, m/s, for no time.
+    pub(crate) fn empty(velocity: f64) -> Self {
+        let piece = Piece::new(0.0, 0.0, Sample::cruising(0.0, velocity));
         Self {
             ends: [0.0; N],
-            anchors: [0.0; N],
-            reaches: [0.0; N],
-            motions: [before; N],
-            before,
-            after: before,
+            pieces: [piece; N],
+            before: velocity,
+            target: 0.0,
+            after: velocity,
             duration: 0.0,
         }
+    }
+
+    /// Number of sections that have ended at `t`: that of the section to evaluate.
+    #[inline]
+    fn index(&self, t: f64) -> usize {
+        // Bisection without a branch: which half is taken is as good as random, and a processor would guess.
+        let mut index = 0;
+        let mut step = (N + 1).next_power_of_two() / 2;
+        while step > 0 {
+            let ended = self.ends.get(index + step - 1).is_some_and(|end| *end <= t);
+            index += step * usize::from(ended);
+            step /= 2;
+        }
+        index
     }
 
     /// The same motion in a longer time.
@@ -57,11 +85,14 @@ impl<const N: usize> Piecewise<N> {
         let stretch = Stretch::new(self.duration, duration, self.before, self.after)?;
         Ok(Self {
             ends: self.ends.map(|t| stretch.time(t)),
-            anchors: self.anchors.map(|t| stretch.time(t)),
-            reaches: self.reaches.map(|x| stretch.length(x)),
-            motions: self.motions.map(|m| stretch.motion(m)),
-            before: stretch.motion(self.before),
-            after: stretch.motion(self.after),
+            pieces: self.pieces.map(|piece| Piece {
+                anchor: stretch.time(piece.anchor),
+                reach: stretch.length(piece.reach),
+                motion: stretch.motion(piece.motion),
+            }),
+            before: stretch.speed(self.before),
+            target: stretch.position(self.target),
+            after: stretch.speed(self.after),
             duration,
         })
     }
@@ -75,13 +106,12 @@ impl<const N: usize> Profile for Piecewise<N> {
     #[inline]
     fn sample(&self, t: f64) -> Sample {
         if t >= 0.0 {
-            let index: usize = self.ends.iter().map(|end| usize::from(*end <= t)).sum();
-            match (self.motions.get(index), self.anchors.get(index), self.reaches.get(index)) {
-                (Some(motion), Some(anchor), Some(reach)) => motion.advanced(local_time(t, *anchor, *reach)),
-                _ => self.after.coasted(t - self.duration),
+            match self.pieces.get(self.index(t)) {
+                Some(piece) => piece.motion.advanced(local_time(t, piece.anchor, piece.reach)),
+                None => self.after().coasted(t - self.duration),
             }
         } else {
-            self.before.coasted(if t < 0.0 { t } else { 0.0 })
+            self.before().coasted(if t < 0.0 { t } else { 0.0 })
         }
     }
 
@@ -102,22 +132,23 @@ impl<const N: usize> Sectioned for Piecewise<N> {
             Some(previous) => *self.ends.get(previous)?,
             None => 0.0,
         };
+        let piece = self.pieces.get(index)?;
         Some(Section {
             start,
             end: *self.ends.get(index)?,
-            anchor: *self.anchors.get(index)?,
-            reach: *self.reaches.get(index)?,
-            polynomial: *self.motions.get(index)?,
+            anchor: piece.anchor,
+            reach: piece.reach,
+            polynomial: piece.motion,
             amplitude: 0.0,
             angular_frequency: 0.0,
         })
     }
 
     fn before(&self) -> Sample {
-        self.before
+        Sample::cruising(0.0, self.before)
     }
 
     fn after(&self) -> Sample {
-        self.after
+        Sample::cruising(self.target, self.after)
     }
 }
