@@ -158,13 +158,15 @@ fn is_scale_free<L: Law>(
 ) -> Result<(), TestCaseError> {
     let (length, time) = (2.0_f64.powi(l), 2.0_f64.powi(t));
     let unit = |k: i32| length / time.powi(k);
-    let scaled = Limits::new(
-        limits.velocity().upper * unit(1),
-        limits.acceleration().upper * unit(2),
-        limits.jerk().upper * unit(3),
-    )
-    .and_then(|s| s.with_snap(limits.snap() * unit(4)))
-    .expect("positive limits");
+    let in_units = |bounds: profiles::Interval, k: i32| {
+        profiles::Interval::new(bounds.lower * unit(k), bounds.upper * unit(k))
+    };
+    let scaled = Limits::UNLIMITED
+        .with_velocity(in_units(limits.velocity(), 1))
+        .and_then(|s| s.with_acceleration(in_units(limits.acceleration(), 2)))
+        .and_then(|s| s.with_jerk(in_units(limits.jerk(), 3)))
+        .and_then(|s| s.with_snap(limits.snap() * unit(4)))
+        .expect("positive limits");
     let here = L::plan(distance, limits)?;
     let there = L::plan(distance * length, &scaled)?;
     prop_assert_eq!(here.duration() * time, there.duration());
@@ -297,6 +299,8 @@ proptest! {
         is_scale_free::<Trapezoid>(distance, &limits, length, time, place)?;
         is_scale_free::<SCurve>(distance, &limits, length, time, place)?;
         is_scale_free::<SnapLimited>(distance, &limits, length, time, place)?;
+        is_scale_free::<Cosine>(distance, &limits, length, time, place)?;
+        is_scale_free::<SCurve>(distance, &lopsided(&limits, 0.3, 1.7), length, time, place)?;
     }
 
     #[test]

@@ -201,16 +201,17 @@ fn asymmetric_move(distance: f64, velocity: f64, up: f64, down: f64, jerk: Jerk)
 
 /// The speed to which two ramps rise that cover `length` together.
 ///
-/// The way of a triangular ramp is `G v^(3/2)`, `G = (1/Jr + 2/Jf) / (3 sqrt((1/Jr + 1/Jf)/2))`; a ramp that
-/// reaches its acceleration covers the quadratic of the type's documentation. Both rise with `v` and are convex.
+/// A triangular ramp with the peak `a` gains `v = R a^2`, `R = (1/Jr + 1/Jf) / 2`, and covers `R K a^3`,
+/// `K = (1/Jr + 2/Jf) / 3`; a ramp that reaches its acceleration covers the quadratic in `v` of the type's
+/// documentation. In the peak of the stronger ramp both rise and are convex.
 fn common_speed(length: f64, up: f64, down: f64, jerk: Jerk) -> f64 {
     let (weaker, stronger) = (up.min(down), up.max(down));
-    let inverse = jerk.mean_inverse();
-    let g = (1.0 / jerk.rising + 2.0 / jerk.falling) / (3.0 * Real::sqrt(inverse));
-    // Both triangular: 2 G v^(3/2) = h.
-    let triangular = Real::cbrt((length / (2.0 * g)) * (length / (2.0 * g)));
-    if triangular <= weaker * weaker * inverse {
-        return triangular;
+    let r = jerk.mean_inverse();
+    let k = (1.0 / jerk.rising + 2.0 / jerk.falling) / 3.0;
+    // Both triangular: 2 R K a^3 = h.
+    let triangular = Real::cbrt(length / (2.0 * r * k));
+    if triangular <= weaker {
+        return r * triangular * triangular;
     }
     // Coefficients of v^2, v and 1 in the way of a ramp that reaches its acceleration.
     let quadratic = |a: f64| {
@@ -221,24 +222,23 @@ fn common_speed(length: f64, up: f64, down: f64, jerk: Jerk) -> f64 {
     if stronger < f64::INFINITY {
         let [s2, s1, s0] = quadratic(stronger);
         let (c2, c1, c0) = (w2 + s2, w1 + s1, w0 + s0 - length);
-        let root = Real::sqrt(c1 * c1 - 4.0 * c2 * c0);
         // c0 <= 0 where both ramps are trapezoidal, so this form has no cancellation.
-        let trapezoidal = -2.0 * c0 / (c1 + root);
-        if trapezoidal >= stronger * stronger * inverse {
+        let trapezoidal = -2.0 * c0 / (c1 + Real::sqrt(c1 * c1 - 4.0 * c2 * c0));
+        if trapezoidal >= stronger * stronger * r {
             return trapezoidal;
         }
     }
     // One of each: Newton's method from above falls monotonically on a convex function.
-    let mut v = (length / g) * (length / g);
-    v = Real::cbrt(v);
+    let mut a = Real::cbrt(length / (r * k));
     for _ in 0..64 {
-        let root = Real::sqrt(v);
-        let excess = g * v * root + (w2 * v + w1) * v + w0 - length;
-        let next = v - excess / (1.5 * g * root + 2.0 * w2 * v + w1);
-        if next.is_nan() || next >= v {
+        let v = r * a * a;
+        let excess = v * (k * a + w2 * v + w1) + w0 - length;
+        let slope = r * a * (3.0 * k * a + 4.0 * w2 * v + 2.0 * w1);
+        let next = a - excess / slope;
+        if next.is_nan() || next >= a {
             break;
         }
-        v = next;
+        a = next;
     }
-    v
+    r * a * a
 }
