@@ -36,7 +36,7 @@ pub enum PlanError {
     #[error("the distance must be finite, got {0}")]
     Distance(f64),
     /// A speed that is infinite, NaN or, where a speed has no sign, negative.
-    #[error("{which} speed must be finite and within its sign, got {value}")]
+    #[error("the {which} speed must be finite, and not negative where it is a magnitude, got {value}")]
     Speed {
         /// Which speed.
         which: &'static str,
@@ -44,7 +44,7 @@ pub enum PlanError {
         value: f64,
     },
     /// A speed beyond the limit of the velocity.
-    #[error("{which} speed {value} is outside the velocity limits [{lower}, {upper}]")]
+    #[error("the {which} speed {value} is outside the velocity limits [{lower}, {upper}]")]
     SpeedLimit {
         /// Which speed.
         which: &'static str,
