@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
 
-mod complex;
+pub mod complex;
 mod cursor;
 mod error;
 mod laws;
