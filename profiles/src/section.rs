@@ -3,7 +3,8 @@
 use crate::profile::Profile;
 use crate::quantities::{Real, Sample};
 
-/// A profile made of a few sections, each a polynomial of at most the fourth degree plus at most one sine.
+/// A profile made of a few sections, each a polynomial of at most the fourth degree plus at most one sine. All sines
+/// of a profile have the same angular frequency.
 ///
 /// A [`Cursor`](crate::Cursor) runs any of them on a fixed clock.
 pub trait Sectioned: Profile {

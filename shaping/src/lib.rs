@@ -4,11 +4,13 @@
 mod delay_filter;
 mod delay_line;
 mod error;
+mod shaped;
 mod train;
 
 pub use delay_filter::DelayFilter;
 pub use delay_line::{DelayLine, DelayLineOutput, DelayLineState, Status};
 pub use error::{DelayFilterError, DelayLineError, TrainError};
+pub use shaped::Shaped;
 pub use train::{Impulse, ImpulseTrain};
 
 #[cfg(test)]

@@ -6,9 +6,9 @@ use num_complex::Complex;
 
 use super::{finite_distance, representable, speed_within, symmetric_limits};
 use crate::error::PlanError;
-use crate::polynomial::response;
+use crate::polynomial::{extrema, response};
 use crate::profile::{Extrema, Profile};
-use crate::quantities::{Interval, Limits, Real, Sample};
+use crate::quantities::{Limits, Real, Sample};
 use crate::section::{Section, Sectioned};
 use crate::stretch::Stretch;
 
@@ -31,8 +31,6 @@ pub struct Cosine {
     sections: [Section; 3],
     before: Sample,
     after: Sample,
-    /// Change of velocity in the first ramp, m/s.
-    change: f64,
 }
 
 impl Cosine {
@@ -48,14 +46,12 @@ impl Cosine {
             return Ok(Self::empty(Sample::default()));
         }
         // Without a cruise h = v t1(v) for each of the two limits in turn.
-        let speed = limits
-            .along(distance)
-            .velocity()
-            .upper
-            .min(Real::sqrt(bounds.acceleration * length * (2.0 / PI)))
+        let limit = limits.along(distance).velocity().upper;
+        let reached = Real::sqrt(bounds.acceleration * length * (2.0 / PI))
             .min(Real::cbrt(bounds.jerk * length * length * (2.0 / (PI * PI))));
+        let speed = limit.min(reached);
         let ramp = representable("ramp", bounds.ramp_time(speed))?;
-        let down_start = (length / speed).max(ramp);
+        let down_start = if limit < reached { (length / speed).max(ramp) } else { ramp };
         let duration = representable("duration", down_start + ramp)?;
 
         let velocity = speed.copysign(distance);
@@ -69,7 +65,6 @@ impl Cosine {
             ],
             before: Sample::default(),
             after: Sample::at_rest(distance),
-            change: velocity,
         })
     }
 
@@ -93,7 +88,6 @@ impl Cosine {
             sections: [Wave { change, from, ramp }.section(0.0, ramp, 0.0, 0.0), rest, rest],
             before: Sample::cruising(0.0, from),
             after,
-            change,
         })
     }
 
@@ -115,22 +109,12 @@ impl Cosine {
                 angular_frequency: s.angular_frequency * (self.duration() / duration),
             }
         });
-        Ok(Self {
-            sections,
-            before: stretch.motion(self.before),
-            after: stretch.motion(self.after),
-            change: stretch.speed(self.change),
-        })
+        Ok(Self { sections, before: stretch.motion(self.before), after: stretch.motion(self.after) })
     }
 
     fn empty(motion: Sample) -> Self {
         let nothing = Section::cruise(0.0, 0.0, motion);
-        Self { sections: [nothing; 3], before: motion, after: motion, change: 0.0 }
-    }
-
-    fn rise(&self) -> &Section {
-        let [rise, _, _] = &self.sections;
-        rise
+        Self { sections: [nothing; 3], before: motion, after: motion }
     }
 }
 
@@ -199,26 +183,7 @@ impl Profile for Cosine {
     }
 
     fn extrema(&self) -> Extrema {
-        let (from, to) = (self.before.velocity, self.after.velocity);
-        let w = self.rise().angular_frequency;
-        let nothing = Interval::default();
-        let peak = 0.5 * self.change * w;
-        let mut position = nothing.including(self.after.position);
-        if from * to < 0.0 {
-            // The velocity changes sign where cos(w t) = 1 + 2 v0 / dv.
-            let turn = libm::acos((1.0 + 2.0 * from / self.change).clamped(-1.0, 1.0)) / w;
-            position = position.including(self.rise().at_local(turn).position);
-        }
-        let one_way = nothing.including(peak);
-        let move_to_rest = self.sections.iter().filter(|section| section.amplitude != 0.0).count() == 2;
-        let acceleration = if move_to_rest { Interval::symmetric(peak.abs()) } else { one_way };
-        Extrema {
-            position,
-            velocity: Interval::new(from, from).including(from + self.change).including(to),
-            acceleration,
-            jerk: Interval::symmetric(peak.abs() * w),
-            snap: Interval::new(-acceleration.upper * w * w, -acceleration.lower * w * w),
-        }
+        extrema::over(self)
     }
 
     fn response(&self, p: Complex<f64>) -> Complex<f64> {

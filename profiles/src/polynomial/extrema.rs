@@ -1,87 +1,143 @@
-//! Exact extrema of a polynomial motion: the ends of every section and the roots of every derivative.
+//! Exact extrema of a motion: the ends of every section and the zeros of every derivative.
 
-use super::Piecewise;
+use core::f64::consts::PI;
+
 use crate::profile::Extrema;
 use crate::quantities::{Interval, Real, Sample};
-use crate::section::Sectioned;
+use crate::section::{Sectioned, with_sine};
 
 const NOTHING: Interval = Interval { lower: f64::INFINITY, upper: f64::NEG_INFINITY };
 
-pub(crate) fn over<const N: usize>(profile: &Piecewise<N>) -> Extrema {
-    let mut extrema =
-        Extrema { position: NOTHING, velocity: NOTHING, acceleration: NOTHING, jerk: NOTHING, snap: NOTHING };
-    let mut sections = (0..N).filter_map(|k| profile.section(k)).filter(|s| s.length() > 0.0).peekable();
-    if sections.peek().is_none() {
-        include(&mut extrema, &profile.before());
-    }
-    for section in sections {
-        // In local time one of the ends is exact.
+/// The most zeros of one derivative that are looked for in one section: far more than the four of a polynomial and
+/// the one or two that a sine of half a wave adds.
+const MOST: usize = 16;
+
+/// The exact range of every derivative over all sections.
+pub(crate) fn over<S: Sectioned>(profile: &S) -> Extrema {
+    let sections = (0..).map_while(|k| profile.section(k)).filter(|section| section.length() > 0.0);
+    let ranges = sections.map(|section| {
         let (from, to) = section.local_ends();
-        let motion = section.polynomial;
-        include(&mut extrema, &motion.advanced(from));
-        include(&mut extrema, &motion.advanced(to));
+        Extrema::of_motion(&section.polynomial, section.amplitude, section.angular_frequency, from, to)
+    });
+    ranges.reduce(Extrema::including).unwrap_or_else(|| Extrema::at(&profile.before()))
+}
 
-        let turns = |x: Option<f64>| x.filter(|x| from < *x && *x < to);
-        let jerk_root = turns((motion.snap != 0.0).then(|| -motion.jerk / motion.snap));
-        if let Some(x) = jerk_root {
-            extrema.acceleration = extrema.acceleration.including(motion.advanced(x).acceleration);
-        }
-        let mut pieces = [from, to, to, to];
-        let mut count = 0;
-        for x in quadratic_roots(motion.acceleration, motion.jerk, 0.5 * motion.snap) {
-            if let Some(x) = turns(x) {
-                extrema.velocity = extrema.velocity.including(motion.advanced(x).velocity);
-                count += 1;
-                if let Some(piece) = pieces.get_mut(count) {
-                    *piece = x;
-                }
+impl Extrema {
+    /// The exact range of `motion` advanced by `x`, plus `amplitude sin(w x)` in the position, for `from <= x <= to`
+    /// in s, with `w > 0` in rad/s and at most a few waves in between.
+    ///
+    /// A derivative turns where the next one is zero, and changes sign at most once between two zeros of the one
+    /// after that: from the highest derivative down every zero is bracketed, and bisected to rounding.
+    #[must_use]
+    pub fn of_motion(motion: &Sample, amplitude: f64, w: f64, from: f64, to: f64) -> Self {
+        let at = |x: f64| with_sine(motion.advanced(x), amplitude, w, x);
+        let mut extrema = Self::at(&at(from)).including(Self::at(&at(to)));
+        let mut zeros = Zeros::default();
+        if amplitude != 0.0 {
+            // The fifth derivative is that of the sine alone: a cosine.
+            let mut wave = Real::ceil(w * from / PI - 0.5);
+            while (wave + 0.5) * PI < w * to && zeros.push((wave + 0.5) * PI / w) {
+                wave += 1.0;
+            }
+            for x in zeros.iter() {
+                extrema.snap = extrema.snap.including(at(x).snap);
             }
         }
-        for ends in pieces.windows(2) {
-            if let [left, right] = *ends
-                && let Some(x) = velocity_root(&motion, left, right)
-            {
-                extrema.position = extrema.position.including(motion.advanced(x).position);
+        let derivatives: [fn(&Sample) -> f64; 4] =
+            [|s| s.snap, |s| s.jerk, |s| s.acceleration, |s| s.velocity];
+        for (order, derivative) in derivatives.into_iter().enumerate() {
+            zeros = zeros.between(from, to, |x| derivative(&at(x)));
+            for x in zeros.iter() {
+                let turn = at(x);
+                let (range, value) = match order {
+                    0 => (&mut extrema.jerk, turn.jerk),
+                    1 => (&mut extrema.acceleration, turn.acceleration),
+                    2 => (&mut extrema.velocity, turn.velocity),
+                    _ => (&mut extrema.position, turn.position),
+                };
+                *range = range.including(value);
             }
         }
+        extrema
     }
-    extrema
+
+    /// The range of a single instant.
+    #[must_use]
+    pub fn at(sample: &Sample) -> Self {
+        let one = |value: f64| NOTHING.including(value);
+        Self {
+            position: one(sample.position),
+            velocity: one(sample.velocity),
+            acceleration: one(sample.acceleration),
+            jerk: one(sample.jerk),
+            snap: one(sample.snap),
+        }
+    }
+
+    /// The smallest ranges that hold both.
+    #[must_use]
+    pub fn including(self, other: Self) -> Self {
+        let both = |a: Interval, b: Interval| a.including(b.lower).including(b.upper);
+        Self {
+            position: both(self.position, other.position),
+            velocity: both(self.velocity, other.velocity),
+            acceleration: both(self.acceleration, other.acceleration),
+            jerk: both(self.jerk, other.jerk),
+            snap: both(self.snap, other.snap),
+        }
+    }
 }
 
-fn include(extrema: &mut Extrema, sample: &Sample) {
-    extrema.position = extrema.position.including(sample.position);
-    extrema.velocity = extrema.velocity.including(sample.velocity);
-    extrema.acceleration = extrema.acceleration.including(sample.acceleration);
-    extrema.jerk = extrema.jerk.including(sample.jerk);
-    extrema.snap = extrema.snap.including(sample.snap);
+/// The zeros of a function, in ascending order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Zeros {
+    places: [f64; MOST],
+    len: usize,
 }
 
-/// The real roots of `c + b x + a x^2`, in ascending order.
-fn quadratic_roots(c: f64, b: f64, a: f64) -> [Option<f64>; 2] {
-    if a == 0.0 {
-        return [(b != 0.0).then(|| -c / b), None];
+impl Zeros {
+    /// Whether there was room.
+    fn push(&mut self, x: f64) -> bool {
+        let place = self.places.get_mut(self.len);
+        let room = place.is_some();
+        if let Some(place) = place {
+            *place = x;
+            self.len += 1;
+        }
+        room
     }
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant < 0.0 {
-        return [None, None];
+
+    fn iter(&self) -> impl Iterator<Item = f64> + '_ {
+        self.places.iter().take(self.len).copied()
     }
-    // The sum without cancellation first, the other root from the product.
-    let q = -0.5 * (b + Real::sqrt(discriminant).copysign(b));
-    let (first, second) = (q / a, if q == 0.0 { 0.0 } else { c / q });
-    [Some(first.min(second)), Some(first.max(second))]
+
+    /// The zeros of `f` in `[from, to]`, given those of its derivative: `f` is monotone between two of them.
+    fn between(&self, from: f64, to: f64, f: impl Fn(f64) -> f64) -> Self {
+        let mut zeros = Self::default();
+        let mut left = from;
+        for right in self.iter().chain([to]) {
+            if let Some(zero) = bisect(&f, left, right) {
+                zeros.push(zero);
+            }
+            left = right;
+        }
+        zeros
+    }
 }
 
-/// The zero of the velocity between `left` and `right`, where the velocity is monotone, by bisection.
-fn velocity_root(motion: &Sample, mut left: f64, mut right: f64) -> Option<f64> {
-    let (at_left, at_right) = (motion.advanced(left).velocity, motion.advanced(right).velocity);
-    if at_left * at_right >= 0.0 {
+/// The place between `left` and `right` where `f` changes sign, to the last bit.
+fn bisect(f: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> Option<f64> {
+    let at_left = f(left);
+    if at_left * f(right) >= 0.0 {
         return None;
     }
-    // Halving ends when the interval is one unit in the last place; 128 halvings reach it from any interval
-    // that is not astride zero, and 1e-38 of it from those.
-    for _ in 0..128 {
+    // Astride zero the halves could shrink for a thousand steps; 200 leave 1e-60 of the interval.
+    for _ in 0..200 {
         let middle = 0.5 * (left + right);
-        if (motion.advanced(middle).velocity < 0.0) == (at_left < 0.0) {
+        if middle <= left || middle >= right {
+            break;
+        }
+        if (f(middle) < 0.0) == (at_left < 0.0) {
             left = middle;
         } else {
             right = middle;
@@ -93,25 +149,14 @@ fn velocity_root(motion: &Sample, mut left: f64, mut right: f64) -> Option<f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polynomial::Piece;
 
     #[test]
     fn turning_points_inside_a_section_are_found() {
         // p = t^4/24 - t^2/2 on [-3, 3]: extrema of every derivative are known by hand.
         let motion = Sample { acceleration: -1.0, snap: 1.0, ..Sample::default() };
-        let profile = Piecewise::<2> {
-            ends: [3.0, 6.0],
-            pieces: [Piece::new(3.0, -3.0, motion), Piece::new(3.0, 3.0, motion)],
-            before: 0.0,
-            target: 0.0,
-            after: 0.0,
-            duration: 6.0,
-        };
-        let extrema = over(&profile);
-        assert!(
-            (extrema.acceleration.lower + 1.0).abs() < 1e-15
-                && (extrema.acceleration.upper - 3.5).abs() < 1e-14
-        );
+        let extrema = Extrema::of_motion(&motion, 0.0, 0.0, -3.0, 3.0);
+        assert!((extrema.acceleration.lower + 1.0).abs() < 1e-15);
+        assert!((extrema.acceleration.upper - 3.5).abs() < 1e-14);
         // Velocity t^3/6 - t turns where t^2 = 2, at -+ (2/3) sqrt 2; its ends are -+ 1.5.
         assert!((extrema.velocity.upper - 1.5).abs() < 1e-14);
         // Position turns at 0 and where t^2 = 6, at -1.5; its ends are 27/8 - 9/2 = -1.125.
@@ -121,11 +166,19 @@ mod tests {
     }
 
     #[test]
-    fn quadratic_roots_keep_their_digits() {
-        let [small, large] = quadratic_roots(1.0, -1e9, 1.0);
-        assert!((small.expect("root") - 1e-9).abs() < 1e-24);
-        assert!((large.expect("root") - 1e9).abs() < 1e-6);
-        assert_eq!(quadratic_roots(1.0, 0.0, 1.0), [None, None]);
-        assert_eq!(quadratic_roots(-6.0, 2.0, 0.0), [Some(3.0), None]);
+    fn a_sine_on_a_slope_turns_where_its_velocity_cancels() {
+        // p = sin(2 x) - x on [0, 3]: v = 2 cos(2 x) - 1 is zero at x = pi/6 and 5 pi/6.
+        let motion = Sample::cruising(0.0, -1.0);
+        let extrema = Extrema::of_motion(&motion, 1.0, 2.0, 0.0, 3.0);
+        let (high, low) = (3.0_f64.sqrt() / 2.0 - PI / 6.0, -(3.0_f64.sqrt()) / 2.0 - 5.0 * PI / 6.0);
+        assert!((extrema.position.upper - high).abs() < 1e-15);
+        assert!((extrema.position.lower - low).abs() < 1e-15);
+        // Every derivative of the sine reaches its amplitude within the wave.
+        assert!((extrema.velocity.lower + 3.0).abs() < 1e-15);
+        assert!(
+            (extrema.acceleration.lower + 4.0).abs() < 1e-15
+                && (extrema.acceleration.upper - 4.0).abs() < 1e-15
+        );
+        assert!((extrema.snap.upper - 16.0).abs() < 1e-14 && (extrema.snap.lower + 16.0).abs() < 1e-14);
     }
 }

@@ -1,6 +1,6 @@
 //! Motions made of sections with constant snap.
 
-mod extrema;
+pub(crate) mod extrema;
 mod piecewise;
 mod ramp;
 pub(crate) mod response;
