@@ -25,7 +25,10 @@ fn bounds(e: profiles::Extrema) -> [profiles::Interval; 5] {
 }
 
 /// The extrema bound every sample, and a sample comes near each of them.
-fn ranges_are_exact<P: Sectioned + std::fmt::Debug>(profile: P, filter: &DelayFilter) -> Result<(), TestCaseError> {
+fn ranges_are_exact<P: Sectioned + std::fmt::Debug>(
+    profile: P,
+    filter: &DelayFilter,
+) -> Result<(), TestCaseError> {
     let shaped = Shaped::new(&profile, *filter.train());
     let bounds = bounds(shaped.extrema());
     let duration = shaped.duration();
