@@ -14,7 +14,7 @@ fn moves() -> Vec<(f64, Limits)> {
         .map(|k| {
             let part = |stride: f64| (f64::from(k) * stride).fract();
             let (ramp, jerk, snap) =
-                (0.02 + 0.2 * part(0.618), 0.1 + 0.8 * part(0.414), 0.1 + 0.8 * part(0.732));
+                (0.02 + 0.2 * part(0.618), 0.1 + 2.4 * part(0.414), 0.1 + 2.4 * part(0.732));
             let velocity = 0.05 + part(0.302);
             let acceleration = velocity / ramp;
             let jerk_limit = acceleration / (ramp * jerk);

@@ -76,7 +76,7 @@ pub enum PlanError {
         /// The shortest distance in which the speeds can be reached, m.
         needed: f64,
     },
-    /// A duration to stretch to that is not finite or shorter than the profile's own.
+    /// A duration to stretch to that is above 1e75 s or shorter than the profile's own.
     #[error("a profile of {shortest} s cannot last {requested} s")]
     Duration {
         /// The duration asked for, s.

@@ -3,7 +3,9 @@
 use num_complex::Complex;
 
 use crate::complex;
+use crate::polynomial::response;
 use crate::quantities::{Interval, Mode, Sample};
+use crate::section::Sectioned;
 
 /// A motion along one axis, planned and complete.
 ///
@@ -25,7 +27,8 @@ pub trait Profile {
     ///
     /// `response(p) = integral from 0 to T of a(u) e^(p (T - u)) du`
     ///
-    /// with `a` the acceleration, jumps of the velocity included as impulses. It is bounded for `Re p <= 0`.
+    /// with `a` the acceleration, jumps of the velocity included as impulses. It is bounded for `Re p <= 0`; to the
+    /// right of that it grows as `e^(p T)` does and overflows with it, where [`transform`] does not.
     /// A mode with pole `p` is left vibrating with the amplitude `|response(p)| / w_d`.
     fn response(&self, p: Complex<f64>) -> Complex<f64>;
 }
@@ -61,10 +64,15 @@ pub struct Extrema {
     pub snap: Interval,
 }
 
-/// The Laplace transform of the acceleration of a profile, `e^(-s T) response(s)`, m/s.
+/// The Laplace transform of the acceleration of a profile, `integral from 0 to T of a(u) e^(-s u) du`, m/s, which is
+/// `e^(-s T) response(s)`: bounded for `Re s >= 0`.
 #[must_use]
-pub fn transform<P: Profile + ?Sized>(profile: &P, s: Complex<f64>) -> Complex<f64> {
-    complex::exp(-s * profile.duration()) * profile.response(s)
+pub fn transform<P: Sectioned>(profile: &P, s: Complex<f64>) -> Complex<f64> {
+    if s.re > 0.0 && complex::norm(s) * profile.duration() >= 1.0 {
+        response::forward(profile, s)
+    } else {
+        complex::exp(-s * profile.duration()) * profile.response(s)
+    }
 }
 
 /// The amplitude in m with which `mode`, at rest before the motion, goes on vibrating about the moving axis when

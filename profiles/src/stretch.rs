@@ -3,6 +3,9 @@
 use crate::error::PlanError;
 use crate::quantities::Sample;
 
+/// The longest duration, s: its fourth power must be finite.
+const LONGEST: f64 = 1e75;
+
 /// How a motion of one duration becomes one of another.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
@@ -17,7 +20,7 @@ impl Stretch {
     /// From `shortest` to `duration`, s; what moves before or after it, with these velocities in m/s, is a ramp and
     /// keeps its speeds.
     pub(crate) fn new(shortest: f64, duration: f64, before: f64, after: f64) -> Result<Self, PlanError> {
-        if !(duration.is_finite() && duration >= shortest && shortest > 0.0) {
+        if !(duration <= LONGEST && duration >= shortest && shortest > 0.0) {
             return Err(PlanError::Duration { requested: duration, shortest });
         }
         Ok(Self {

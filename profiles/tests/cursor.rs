@@ -43,7 +43,7 @@ fn orders64<F: Real>(s: profiles::Sample<F>) -> [f64; 5] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(CASES / 4))]
+    #![proptest_config(ProptestConfig::with_cases(CASES))]
 
     #[test]
     fn ticks_are_samples((distance, limits) in balanced_move(), divisions in prop_oneof![1.0..40.0, 40.0..400.0]) {
@@ -55,6 +55,22 @@ proptest! {
         follows::<_, f32>(SCurve::plan(distance, &limits)?, divisions)?;
         follows::<_, f32>(SnapLimited::plan(distance, &limits)?, divisions)?;
         follows::<_, f32>(Cosine::plan(distance, &limits)?, divisions)?;
+    }
+
+    #[test]
+    fn ticks_of_slower_moves_and_of_moves_with_speeds_are_samples(
+        (distance, limits) in balanced_move(),
+        divisions in prop_oneof![1.0..40.0, 40.0..400.0],
+        slower in 1.0..10.0,
+        speed in 0.0..1.0,
+    ) {
+        let profile = SnapLimited::plan(distance, &limits)?;
+        follows::<_, f64>(profile.stretched(slower * profile.duration())?, divisions)?;
+        let profile = Cosine::plan(distance, &limits)?;
+        follows::<_, f64>(profile.stretched(slower * profile.duration())?, divisions)?;
+        let most = limits.velocity().upper.min((2.0 * limits.acceleration().upper * distance.abs()).sqrt());
+        let profile = Trapezoid::with_speeds(distance, speed * most, 0.5 * speed * most, &limits)?;
+        follows::<_, f64>(profile.stretched(slower * profile.duration())?, divisions)?;
     }
 }
 

@@ -63,6 +63,8 @@ fn speeds_must_lie_within_their_limits() {
 
 #[test]
 fn a_distance_too_short_for_its_speeds_says_what_is_needed() {
+    assert!(matches!(Trapezoid::with_speeds(0.0, 0.1, 0.0, &limits()), Err(PlanError::TooShort { .. })));
+    assert!(matches!(Trapezoid::with_speeds(0.0, 0.1, 0.1, &limits()), Err(PlanError::TooShort { .. })));
     // 0.2 m/s to rest at 4 m/s^2 takes 5 mm.
     match Trapezoid::with_speeds(0.004, 0.2, 0.0, &limits()) {
         Err(PlanError::TooShort { distance, needed }) => {
@@ -102,12 +104,19 @@ fn numbers_beyond_double_precision_are_refused() {
     let tiny = Limits::new(1e-300, 1e-300, 1e300).expect("limits");
     assert!(matches!(SCurve::rest_to_rest(1e300, &tiny), Err(PlanError::Range { .. })));
     assert!(matches!(Trapezoid::rest_to_rest(1e300, &tiny), Err(PlanError::Range { .. })));
+    // Powers on the way under- or overflow, the duration alone would not show it.
+    let slow = Limits::new(1e-300, 1e-300, 1e-30).and_then(|l| l.with_snap(1e200)).expect("limits");
+    assert!(matches!(SnapLimited::rest_to_rest(1.0, &slow), Err(PlanError::Range { .. })));
+    let short = Limits::new(9e-54, 4e67, f64::INFINITY).expect("limits");
+    assert!(matches!(Cosine::rest_to_rest(1.0, &short), Err(PlanError::Range { .. })));
+    let fast = Limits::new(1e200, 1e200, f64::INFINITY).expect("limits");
+    assert!(matches!(Trapezoid::rest_to_rest(1e200, &fast), Err(PlanError::Range { .. })));
 }
 
 #[test]
 fn a_profile_only_stretches() {
     let profile = SCurve::rest_to_rest(0.04, &limits()).expect("plan");
-    for duration in [0.1, f64::NAN, f64::INFINITY] {
+    for duration in [0.1, f64::NAN, f64::INFINITY, 1e300] {
         assert!(matches!(profile.stretched_to(duration), Err(PlanError::Duration { .. })));
     }
     assert_eq!(profile.stretched_to(profile.duration()).map(|p| p.duration()), Ok(profile.duration()));

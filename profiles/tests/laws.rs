@@ -193,6 +193,23 @@ fn stretches<L: Law>(profile: &L, ratio: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// A ramp keeps its speeds in a longer time, and its way grows with it.
+fn stretches_as_a_ramp<L: Law>(profile: &L, ratio: f64) -> Result<(), TestCaseError> {
+    let duration = profile.duration() * ratio;
+    let slow = profile.stretched(duration)?;
+    prop_assert_eq!(slow.duration(), duration);
+    let (end, before) = (slow.sample(duration), profile.sample(profile.duration()));
+    prop_assert_eq!(end.velocity, before.velocity);
+    let way = before.position * ratio;
+    prop_assert!((end.position - way).abs() <= 4.0 * f64::EPSILON * way.abs(), "{} not {way}", end.position);
+    is_continuous(&slow)?;
+    for (k, (a, b)) in scales(profile).into_iter().zip(scales(&slow)).enumerate() {
+        let expected = a * ratio.powi(1 - k as i32);
+        prop_assert!((b - expected).abs() <= 1e-13 * expected, "order {k}: {b} instead of {expected}");
+    }
+    Ok(())
+}
+
 /// All of it for one move.
 fn is_sound<L: Law>(distance: f64, limits: &Limits, known: usize, place: f64) -> Result<L, TestCaseError> {
     let profile = L::plan(distance, limits)?;
@@ -235,6 +252,8 @@ fn ramps<L: Law>(from: f64, to: f64, limits: &Limits, known: usize, place: f64) 
         let way = 0.5 * (from + to) * profile.duration();
         let end = profile.sample(profile.duration()).position;
         prop_assert!((end - way).abs() <= 8.0 * f64::EPSILON * profile.duration() * from.abs().max(to.abs()));
+        samples_lie_within(&profile, place)?;
+        stretches_as_a_ramp(&profile, 1.0 + 10.0 * place)?;
     }
     Ok(())
 }

@@ -22,7 +22,7 @@ fn rsruckig(distance: f64, limits: &Limits) -> Option<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(CASES))]
+    #![proptest_config(ProptestConfig { max_global_rejects: CASES / 10, ..ProptestConfig::with_cases(CASES) })]
 
     #[test]
     fn s_curves_take_the_optimal_time((distance, limits) in balanced_move(), deceleration in magnitude(0.1, 10.0)) {
@@ -37,9 +37,10 @@ proptest! {
         ).expect("limits");
         for limits in [limits, lopsided(&limits, deceleration, 1.0)] {
             let ours = SCurve::plan(1.0_f64.copysign(distance), &limits)?.duration();
-            if let Some(theirs) = rsruckig(1.0_f64.copysign(distance), &limits) {
-                prop_assert!((ours - theirs).abs() < 1e-7 * theirs, "{ours} and {theirs}");
-            }
+            // The peer finds no plan for a few moves; a tenth of them would fail the test.
+            let theirs = rsruckig(1.0_f64.copysign(distance), &limits);
+            let theirs = theirs.ok_or_else(|| TestCaseError::reject("the peer has no plan"))?;
+            prop_assert!((ours - theirs).abs() < 1e-7 * theirs, "{ours} and {theirs}");
         }
     }
 

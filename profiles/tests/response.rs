@@ -114,10 +114,15 @@ proptest! {
         damping in damping(),
     ) {
         let to = limits.velocity().upper;
+        let of = |duration: f64| mode(phase, damping, duration).pole();
+        let profile = Trapezoid::ramp(from * to, to, &limits)?;
+        equals_quadrature(&profile, of(profile.duration()))?;
         let profile = SCurve::ramp(from * to, to, &limits)?;
-        equals_quadrature(&profile, mode(phase, damping, profile.duration()).pole())?;
+        equals_quadrature(&profile, of(profile.duration()))?;
+        let profile = SnapLimited::ramp(from * to, to, &limits)?;
+        equals_quadrature(&profile, of(profile.duration()))?;
         let profile = Cosine::ramp(from * to, to, &limits)?;
-        equals_quadrature(&profile, mode(phase, damping, profile.duration()).pole())?;
+        equals_quadrature(&profile, of(profile.duration()))?;
     }
 
     #[test]
@@ -163,10 +168,43 @@ fn transform_is_the_product_of_the_averages() {
     // A step through averages of lengths t1, t2, t3: A(s) = s h prod (1 - e^(-s t)) / (s t).
     let (v, a, j, h) = (0.2, 4.0, 200.0, 0.1);
     let profile = SCurve::rest_to_rest(h, &profiles::Limits::new(v, a, j).expect("limits")).expect("plan");
-    for s in [Complex::new(-3.0, 40.0), Complex::new(0.0, 200.0), Complex::new(2.0, 7.0)] {
+    let everywhere = [
+        (-3.0, 40.0),
+        (0.0, 200.0),
+        (0.1, 0.2),
+        (2.0, 7.0),
+        (30.0, 0.0),
+        (700.0, 900.0),
+        (1e4, -3e3),
+        (1e9, 0.0),
+    ];
+    for s in everywhere.map(|(re, im)| Complex::new(re, im)) {
         let average = |t: f64| (1.0 - (-s * t).exp()) / (s * t);
         let expected = s * h * average(h / v) * average(v / a) * average(a / j);
-        assert!((transform(&profile, s) - expected).norm() < 1e-14 * (1.0 + expected.norm()));
+        let allowed = if s.re > 0.0 { expected.norm() } else { 1.0 + expected.norm() };
+        assert!((transform(&profile, s) - expected).norm() < 1e-14 * allowed, "{s}");
+    }
+    // Far to the right only the first section counts: J / s^2.
+    let s = Complex::new(1e9, 0.0);
+    assert!((transform(&profile, s).re / (j / 1e18) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_transform_joins_on_the_imaginary_axis() {
+    // From the right no exponential of the response is used, from the left all of them are.
+    let limits = profiles::Limits::new(0.2, 4.0, 200.0).expect("limits");
+    let move_ = Cosine::rest_to_rest(0.05, &limits).expect("plan");
+    let ramp = Cosine::velocity_ramp(-0.1, 0.2, &limits).expect("plan");
+    let jumping = Trapezoid::with_speeds(0.05, 0.1, 0.15, &limits).expect("plan");
+    for w in [7.0, 40.0, 300.0] {
+        let sides = [Complex::new(1e-30, w), Complex::new(0.0, w)];
+        for [right, left] in [
+            sides.map(|s| transform(&move_, s)),
+            sides.map(|s| transform(&ramp, s)),
+            sides.map(|s| transform(&jumping, s)),
+        ] {
+            assert!((right - left).norm() < 1e-14, "{right} and {left}");
+        }
     }
 }
 

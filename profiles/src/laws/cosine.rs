@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use num_complex::Complex;
 
-use super::{finite_distance, representable, speed_within, symmetric_limits};
+use super::{covers, finite_distance, representable, speed_within, symmetric_limits};
 use crate::error::PlanError;
 use crate::polynomial::{extrema, response};
 use crate::profile::{Extrema, Profile};
@@ -54,6 +54,8 @@ impl Cosine {
         let down_start = if limit < reached { (length / speed).max(ramp) } else { ramp };
         let duration = representable("duration", down_start + ramp)?;
 
+        covers(speed * down_start, length)?;
+
         let velocity = speed.copysign(distance);
         let cruise = Sample::cruising(0.5 * velocity * ramp, velocity);
         let wave = Wave { change: velocity, from: 0.0, ramp };
@@ -94,7 +96,7 @@ impl Cosine {
     /// The same motion in a longer time, see [`Piecewise::stretched_to`](crate::Piecewise::stretched_to).
     ///
     /// # Errors
-    /// A duration that is not finite or shorter than the motion's own.
+    /// A duration above 1e75 s or shorter than the motion's own.
     pub fn stretched_to(&self, duration: f64) -> Result<Self, PlanError> {
         let stretch = Stretch::new(self.duration(), duration, self.before.velocity, self.after.velocity)?;
         let sections = self.sections.map(|s| {

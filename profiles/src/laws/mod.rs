@@ -26,7 +26,7 @@ macro_rules! polynomial_law {
             /// The same motion in a longer time, see [`Piecewise::stretched_to`](crate::Piecewise::stretched_to).
             ///
             /// # Errors
-            /// A duration that is not finite or shorter than the motion's own.
+            /// A duration above 1e75 s or shorter than the motion's own.
             pub fn stretched_to(&self, duration: f64) -> Result<Self, $crate::PlanError> {
                 self.0.stretched_to(duration).map(Self)
             }
@@ -100,7 +100,20 @@ fn symmetric_limits(limits: &Limits) -> Result<(f64, f64), PlanError> {
     Ok((symmetric("acceleration", limits.acceleration())?, symmetric("jerk", limits.jerk())?))
 }
 
-/// A planned time that double precision can hold: positive and finite.
+/// The planned times whose fourth powers double precision can hold, s.
+const TIMES: Interval = Interval::new(1e-75, 1e75);
+
+/// A planned time that double precision can hold.
 fn representable(quantity: &'static str, value: f64) -> Result<f64, PlanError> {
-    if value > 0.0 && value < f64::INFINITY { Ok(value) } else { Err(PlanError::Range { quantity, value }) }
+    if TIMES.contains(value) { Ok(value) } else { Err(PlanError::Range { quantity, value }) }
+}
+
+/// Verifies a plan: its sections must add up to the length.
+fn covers(met: f64, length: f64) -> Result<(), PlanError> {
+    // Written so that NaN fails.
+    if (met - length).abs() <= 1e-12 * length.abs() {
+        Ok(())
+    } else {
+        Err(PlanError::Range { quantity: "distance", value: met })
+    }
 }

@@ -1,6 +1,6 @@
 //! Constant jerk in seven sections.
 
-use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within};
+use super::{covers, finite_distance, finite_limit, polynomial_law, representable, speed_within};
 use crate::error::PlanError;
 use crate::polynomial::{Piece, Piecewise, Ramp};
 use crate::quantities::{Limits, Real, Sample};
@@ -52,11 +52,9 @@ impl SCurve {
         representable("duration", plan.duration)?;
         let [_, _, _, cruise, falling, ..] = &plan.pieces;
         let met = cruise.motion.position + cruise.motion.velocity * cruise.reach;
-        if (met - falling.motion.position).abs() <= 1e-12 * distance.abs() {
-            Ok(Self(plan))
-        } else {
-            Err(PlanError::Range { quantity: "distance", value: met })
-        }
+        // What is left between them is a part of the distance, not of where they meet.
+        covers(distance + (met - falling.motion.position), distance)?;
+        Ok(Self(plan))
     }
 
     /// The fastest change of velocity from `from` to `to`, both in m/s and signed.

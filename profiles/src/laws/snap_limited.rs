@@ -1,6 +1,8 @@
 //! Constant derivative of jerk in fifteen sections.
 
-use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within, symmetric_limits};
+use super::{
+    covers, finite_distance, finite_limit, polynomial_law, representable, speed_within, symmetric_limits,
+};
 use crate::error::PlanError;
 use crate::polynomial::{Piece, Piecewise, Ramp};
 use crate::quantities::{Limits, Real, Sample};
@@ -43,12 +45,8 @@ impl SnapLimited {
         let ramp = bounds.ramp(averages, 1.0_f64.copysign(distance));
         let t1 = (length / bounds.velocity).max(ramp.duration);
         representable("duration", t1 + ramp.duration)?;
-        let met = ramp.speed * t1;
-        if (met - distance).abs() <= 1e-12 * length {
-            Ok(Self(ramp.move_to(&ramp, t1, distance)))
-        } else {
-            Err(PlanError::Range { quantity: "distance", value: met })
-        }
+        covers(ramp.speed * t1, distance)?;
+        Ok(Self(ramp.move_to(&ramp, t1, distance)))
     }
 
     /// The fastest change of velocity from `from` to `to`, both in m/s and signed.

@@ -1,6 +1,6 @@
 //! Constant acceleration, constant velocity, constant deceleration.
 
-use super::{finite_distance, finite_limit, polynomial_law, representable, speed_within};
+use super::{covers, finite_distance, finite_limit, polynomial_law, representable, speed_within};
 use crate::error::PlanError;
 use crate::polynomial::{Piece, Piecewise};
 use crate::quantities::{Limits, Real, Sample};
@@ -57,7 +57,7 @@ impl Trapezoid {
         }
         let up = finite_limit("acceleration", along.acceleration().upper)?;
         let down = finite_limit("acceleration", -along.acceleration().lower)?;
-        if length == 0.0 {
+        if length == 0.0 && start_speed == 0.0 && stop_speed == 0.0 {
             return Ok(Self(Piecewise::empty(0.0)));
         }
 
@@ -65,7 +65,7 @@ impl Trapezoid {
         // Lengths of the ramps from each end to a speed v; the product form keeps the digits of a small change.
         let ramp = |v: f64, from: f64, a: f64| (v - from) * (v + from) / (2.0 * a);
         let needed = ramp(faster, start_speed, up) + ramp(faster, stop_speed, down);
-        if needed > length {
+        if needed > length || length == 0.0 {
             return Err(PlanError::TooShort { distance, needed });
         }
         let room = length - needed;
@@ -82,6 +82,7 @@ impl Trapezoid {
 
         let sign = 1.0_f64.copysign(distance);
         let risen = ramp(speed, start_speed, up);
+        covers(risen + speed * cruise + ramp(speed, stop_speed, down), length)?;
         let motion = |position: f64, velocity: f64, acceleration: f64| Sample {
             position,
             velocity: sign * velocity,

@@ -80,7 +80,7 @@ impl<const N: usize> Piecewise<N> {
     /// speeds, `v(t) -> v(t T / duration)`, and takes a longer way.
     ///
     /// # Errors
-    /// A duration that is not finite or shorter than the profile's own, and any for a motion of no duration.
+    /// A duration above 1e75 s or shorter than the profile's own, and any for a motion of no duration.
     pub fn stretched_to(&self, duration: f64) -> Result<Self, PlanError> {
         let stretch = Stretch::new(self.duration, duration, self.before, self.after)?;
         Ok(Self {

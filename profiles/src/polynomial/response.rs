@@ -43,6 +43,42 @@ pub(crate) fn over<S: Sectioned>(profile: &S, p: Complex<f64>) -> Complex<f64> {
     }
 }
 
+/// `integral of a(u) e^(-s u) du`, for `Re s >= 0` and `|s T|` of one or more: no exponential grows.
+pub(crate) fn forward<S: Sectioned>(profile: &S, s: Complex<f64>) -> Complex<f64> {
+    let before = profile.before().velocity;
+    let mut sum = Complex::new(0.0, 0.0);
+    let mut last = None;
+    let mut index = 0;
+    while let Some(section) = profile.section(index) {
+        index += 1;
+        if section.length() <= 0.0 {
+            continue;
+        }
+        let (from, to) = section.local_ends();
+        if last.is_none() {
+            sum += section.at_local(from).velocity - before;
+        }
+        let end = section.polynomial.advanced(to);
+        last = Some(section.at_local(to).velocity);
+        // Counted back from the end of the section, every other derivative has the other sign.
+        let d = section.length();
+        let mut integral = polynomial_integral([end.acceleration, -end.jerk, end.snap, 0.0], d, -s);
+        let w = section.angular_frequency;
+        if section.amplitude != 0.0 {
+            // sin(w (x + from)) is the imaginary part of e^(i w (x + from)).
+            let i = Complex::new(0.0, 1.0);
+            let turning = |q: Complex<f64>| {
+                let [phi_1, ..] = phi_functions((q - s) * d);
+                complex::exp(q * from) * phi_1 * d
+            };
+            let sine = (turning(i * w) - turning(-i * w)) / (2.0 * i);
+            integral -= sine * (section.amplitude * w * w);
+        }
+        sum += complex::exp(-s * section.start) * integral;
+    }
+    sum + complex::exp(-s * profile.duration()) * (profile.after().velocity - last.unwrap_or(before))
+}
+
 /// `integral over the section of a(u) e^(p (end - u)) du`.
 fn acceleration_integral(section: &Section, p: Complex<f64>) -> Complex<f64> {
     let start = section.polynomial.advanced(section.local_ends().0);

@@ -46,7 +46,8 @@ impl Mode {
     /// # Errors
     /// A frequency that is not positive and finite, or a damping ratio outside `[0, 1)`.
     pub fn new(angular_frequency: f64, damping_ratio: f64) -> Result<Self, ModeError> {
-        if !(angular_frequency > 0.0 && angular_frequency.is_finite()) {
+        // A subnormal frequency has too few digits for its damped one.
+        if !(angular_frequency >= f64::MIN_POSITIVE && angular_frequency.is_finite()) {
             return Err(ModeError::Frequency(angular_frequency));
         }
         if !(0.0..1.0).contains(&damping_ratio) {
