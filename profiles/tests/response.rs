@@ -181,12 +181,12 @@ fn transform_is_the_product_of_the_averages() {
     for s in everywhere.map(|(re, im)| Complex::new(re, im)) {
         let average = |t: f64| (1.0 - (-s * t).exp()) / (s * t);
         let expected = s * h * average(h / v) * average(v / a) * average(a / j);
-        let allowed = if s.re > 0.0 { expected.norm() } else { 1.0 + expected.norm() };
-        assert!((transform(&profile, s) - expected).norm() < 1e-14 * allowed, "{s}");
+        assert!((transform(&profile, s) - expected).norm() < 1e-14 * (1.0 + expected.norm()), "{s}");
     }
-    // Far to the right only the first section counts: J / s^2.
+    // Far to the right only the start of the first section counts, J / s^2, less the rounding of its end: |s| A/J units.
     let s = Complex::new(1e9, 0.0);
-    assert!((transform(&profile, s).re / (j / 1e18) - 1.0).abs() < 1e-9);
+    let allowed = 1e9 * a / j * f64::EPSILON;
+    assert!((transform(&profile, s).re / (j / 1e18) - 1.0).abs() < 4.0 * allowed);
 }
 
 #[test]
