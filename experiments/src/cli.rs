@@ -82,7 +82,7 @@ pub fn main(
     };
     result.unwrap_or_else(|error| {
         // Whoever reads the output may have seen enough.
-        if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) {
+        if is_broken_pipe(&error) {
             return 0;
         }
         let line = format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ");
@@ -91,6 +91,10 @@ pub fn main(
         let usage = error.is::<Usage>() || error.is::<FolderError>();
         if usage { 2 } else { 1 }
     })
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe)
 }
 
 struct Bench<'a> {
@@ -143,7 +147,12 @@ impl Bench<'_> {
             return Ok(0);
         }
         let results = bench::run(&selected, SEED, false)?;
-        write!(out, "{}", terminal::table(&results))?;
+        // A verdict does not depend on who reads the table.
+        if let Err(error) = write!(out, "{}", terminal::table(&results)).map_err(anyhow::Error::from)
+            && !is_broken_pipe(&error)
+        {
+            return Err(error);
+        }
         let mut problems: Vec<String> = results
             .findings()
             .filter_map(|f| {
@@ -160,7 +169,8 @@ impl Bench<'_> {
             }
         }
         for problem in &problems {
-            writeln!(err, "{problem}")?;
+            // If standard error is closed too, the exit code is all that is left.
+            let _ = writeln!(err, "{problem}");
         }
         Ok(u8::from(!problems.is_empty()))
     }

@@ -44,6 +44,9 @@ pub struct Expectation {
     pub status: Status,
     /// Needed by `deviates`.
     pub why: Option<String>,
+    /// Our value as recorded, for a row that neither matches nor stands in the README: what is measured must be within
+    /// the tolerance of an `ours` row, or within 1 %, of it; a word must be the same.
+    pub ours: Option<Value>,
     /// Id of the figure the row is shown with.
     pub figure: Option<String>,
     /// Whether the README's table has the row; `true` unless it says otherwise.
@@ -99,8 +102,13 @@ pub enum ExpectedError {
         /// What it should bound.
         published: Option<Value>,
     },
-    /// A published number that is infinite or NaN.
-    #[error("metric '{0}': the published value is not finite")]
+    /// A row that nothing would hold: it does not match, and is neither in the README nor recorded.
+    #[error(
+        "metric '{0}' neither matches nor stands in the README, so it needs a recorded value: ours = ..."
+    )]
+    NotRecorded(String),
+    /// A published or recorded number that is infinite or NaN.
+    #[error("metric '{0}': the published or recorded value is not finite")]
     PublishedNotFinite(String),
     /// A row that the run gave no value for.
     #[error("nothing was measured for metric '{0}'")]
@@ -170,6 +178,12 @@ fn check(row: &Expectation) -> Result<(), ExpectedError> {
     if row.status != Status::Ours && row.tolerance.is_none() {
         return Err(ExpectedError::NoTolerance(metric()));
     }
+    if row.ours.as_ref().and_then(Value::number).is_some_and(|x| !x.is_finite()) {
+        return Err(ExpectedError::PublishedNotFinite(metric()));
+    }
+    if row.status != Status::Match && !row.readme && row.ours.is_none() {
+        return Err(ExpectedError::NotRecorded(metric()));
+    }
     let published = row.published.as_ref();
     let compared = row.status != Status::Ours;
     let bound = row.tolerance.is_none_or(|tolerance| match tolerance {
@@ -228,14 +242,25 @@ pub fn compare(
     }
 }
 
+/// Whether `value` is what was recorded as ours.
+fn as_recorded(expected: &Expectation, ours: &Value, value: &Value) -> bool {
+    let slack = Tolerance::Rel(crate::readme::SLACK);
+    let bound = match expected.tolerance {
+        Some(tolerance @ (Tolerance::Abs(_) | Tolerance::Rel(_))) if expected.status == Status::Ours => {
+            tolerance
+        }
+        _ => slack,
+    };
+    ours == value || bound.holds(Some(ours), value)
+}
+
 fn find(experiment: &str, expected: &Expectation, value: &Value) -> Finding {
     let within = expected.tolerance.is_some_and(|t| t.holds(expected.published.as_ref(), value));
+    let drifted = expected.ours.as_ref().is_some_and(|ours| !as_recorded(expected, ours, value));
     let (status, surprise) = match (expected.status, within) {
-        (Status::Ours, _) => (Status::Ours, None),
-        (Status::Match, true) => (Status::Match, None),
         (Status::Match, false) => (Status::Deviates, Some(Surprise::Left)),
-        (Status::Deviates, false) => (Status::Deviates, None),
         (Status::Deviates, true) => (Status::Match, Some(Surprise::NowMatches)),
+        (status, _) => (status, drifted.then_some(Surprise::Drifted)),
     };
     let why = match (surprise, &expected.why) {
         (None, why) => why.clone(),

@@ -194,6 +194,8 @@ pub enum Surprise {
     Left,
     /// Expected to deviate, and inside the tolerance.
     NowMatches,
+    /// Not the value recorded as ours.
+    Drifted,
 }
 
 impl Surprise {
@@ -203,6 +205,7 @@ impl Surprise {
         match self {
             Self::Left => "has left its tolerance",
             Self::NowMatches => "is listed as deviating and now matches",
+            Self::Drifted => "is no longer the value recorded as ours",
         }
     }
 }

@@ -101,6 +101,26 @@ fn every_rule_has_its_error() {
 }
 
 #[test]
+fn a_row_out_of_the_readme_is_recorded_or_matches() {
+    let deviating = GOOD.replace("match", "deviates");
+    assert_eq!(parse(&deviating).unwrap_err(), ExpectedError::NotRecorded("error/0.01".into()));
+    assert!(parse(&deviating.replace("readme = false\n", "")).is_ok());
+    let recorded = format!("{deviating}ours = 9.0\n");
+    assert!(parse(&recorded.replace("9.0", "inf")).is_err());
+    // Within 1 % of what was recorded, whatever the tolerance of the published value.
+    assert_eq!(find(&recorded, 9.05).surprise, None);
+    assert_eq!(find(&recorded, 9.2).surprise, Some(Surprise::Drifted));
+    assert_eq!(find(&recorded, "unstable").surprise, Some(Surprise::Drifted));
+    let word = format!("{deviating}ours = \"unstable\"\n");
+    assert_eq!(find(&word, "unstable").surprise, None);
+    assert_eq!(find(&word, 9.0).surprise, Some(Surprise::Drifted));
+    // A row of our own has its own tolerance.
+    let ours = format!("{}ours = 100.0\n", GOOD.replace("match", "ours").replace("0.01 }", "0.05 }"));
+    assert_eq!(find(&ours, 104.0).surprise, None);
+    assert_eq!(find(&ours, 106.0).surprise, Some(Surprise::Drifted));
+}
+
+#[test]
 fn rows_and_measurements_are_one_to_one() {
     let rows = parse(GOOD).unwrap();
     let number = |x: f64| Value::Number(x);
@@ -135,12 +155,12 @@ fn a_row_says_what_was_found() {
     assert_eq!((left.row.status, left.surprise), (Status::Deviates, Some(Surprise::Left)));
     assert!(left.row.why.unwrap().contains("has left its tolerance"));
 
-    let deviating = GOOD.replace("match", "deviates");
+    let deviating = GOOD.replace("match", "deviates").replace("readme = false\n", "");
     let found = find(&deviating, 6.07);
     assert_eq!((found.row.status, found.surprise), (Status::Deviates, None));
     let now = find(&deviating, 6.05);
     assert_eq!((now.row.status, now.surprise), (Status::Match, Some(Surprise::NowMatches)));
 
-    let ours = find(&GOOD.replace("match", "ours"), 100.0);
+    let ours = find(&GOOD.replace("match", "ours").replace("readme = false\n", ""), 100.0);
     assert_eq!((ours.row.status, ours.surprise), (Status::Ours, None));
 }

@@ -83,6 +83,8 @@ pub struct Marks {
     pub name: String,
     /// x and y, in the units of the axes.
     pub points: Vec<(f64, f64)>,
+    /// The line each point belongs to, whose colour it has; none where they belong to no line.
+    pub roles: Vec<Role>,
 }
 
 /// A horizontal dashed line with its name at the right edge.
@@ -137,7 +139,15 @@ impl Panel {
     /// Adds published points.
     #[must_use]
     pub fn marks(mut self, name: &str, points: Vec<(f64, f64)>) -> Self {
-        self.marks.push(Marks { name: name.to_owned(), points });
+        self.marks.push(Marks { name: name.to_owned(), points, roles: Vec::new() });
+        self
+    }
+
+    /// Adds published points, each in the colour of the line it belongs to.
+    #[must_use]
+    pub fn marks_of(mut self, name: &str, points: Vec<(Role, (f64, f64))>) -> Self {
+        let (roles, points) = points.into_iter().unzip();
+        self.marks.push(Marks { name: name.to_owned(), points, roles });
         self
     }
 

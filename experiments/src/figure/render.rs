@@ -249,12 +249,14 @@ fn plots(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, theme: Theme)
         plots.push(line.into());
     }
     for (n, marks) in panel.marks.iter().enumerate() {
-        let points = ScatterPlot::new()
-            .with_data(marks.points.iter().copied())
-            .with_color(theme.style().ink)
-            .with_marker(marker(n))
-            .with_size(4.0);
-        plots.push(points.into());
+        let dots = |points: Vec<(f64, f64)>, colour: &'static str, size: f64| {
+            let plot = ScatterPlot::new().with_data(points).with_color(colour);
+            Plot::from(plot.with_marker(marker(n)).with_size(size))
+        };
+        // In ink first, so that a coloured point keeps a rim where it lies on its own line.
+        plots.push(dots(marks.points.clone(), theme.style().ink, 4.5));
+        let coloured = marks.points.iter().zip(&marks.roles);
+        plots.extend(coloured.map(|(point, role)| dots(vec![*point], theme.colour(*role), 3.0)));
     }
     plots
 }

@@ -32,11 +32,15 @@ pub const EXPERIMENT: Experiment = Experiment {
 
 fn run(context: &Context) -> Result<Outcome> {
     let mut outcome = Outcome::default();
+    context.progress.steps(3 + READINGS.len() as u64 * 3);
     laws(&mut outcome)?;
+    context.progress.step();
     ramp_times(&mut outcome)?;
+    context.progress.step();
     position_errors(context, &mut outcome)?;
     sampled_errors(context, &mut outcome)?;
     better(&mut outcome)?;
+    context.progress.step();
     outcome.note(format!(
         "Jerk and its derivative are not printed: {JERK} m/s^3 and {SNAP} m/s^4 follow from the printed ramp times of \
          the S-curve and the cubic curve."
@@ -46,6 +50,11 @@ fn run(context: &Context) -> Result<Outcome> {
          closest of the readings tried.",
         1e3 * DISTANCE
     ));
+    outcome.note(
+        "Figures 3 to 6 draw every derivative that is a function. The next one is impulses: where the acceleration of \
+         the trapezoid, the jerk of the S-curve and the derivative of jerk of the cubic curve jump, and at both ends of \
+         each ramp of the cosine.",
+    );
     outcome
         .note("The discussion of figure 8 names the quadratic curve twice; 6.3 um belongs to the cubic one.");
     outcome.note(
@@ -70,20 +79,22 @@ fn error() -> Quantity {
 fn laws(outcome: &mut Outcome) -> Result<()> {
     let limits = limits()?;
     let trapezoid = Trapezoid::rest_to_rest(DISTANCE, &limits)?;
-    outcome.figure(law("fig3", "Fig. 3: trapezoid, velocity linear in time", &trapezoid, 2));
+    // As many derivatives as are functions; the next one would be a row of impulses.
+    outcome.figure(law("fig3", "Fig. 3: trapezoid, velocity linear in time", &trapezoid, 2, 2));
     let s_curve = SCurve::rest_to_rest(DISTANCE, &limits)?;
-    outcome.figure(law("fig4", "Fig. 4: S-curve, velocity quadratic in time", &s_curve, 3));
+    outcome.figure(law("fig4", "Fig. 4: S-curve, velocity quadratic in time", &s_curve, 3, 3));
     let snap_limited = SnapLimited::rest_to_rest(DISTANCE, &limits)?;
-    outcome.figure(law("fig5", "Fig. 5: snap-limited, velocity cubic in time", &snap_limited, 4));
+    outcome.figure(law("fig5", "Fig. 5: snap-limited, velocity cubic in time", &snap_limited, 4, 4));
     let cosine = Cosine::rest_to_rest(DISTANCE, &limits)?;
-    outcome.figure(law("fig6", "Fig. 6: cosine", &cosine, 3));
+    outcome.figure(law("fig6", "Fig. 6: cosine", &cosine, 4, 3));
     // The paper calls the cosine free of jerk steps; this is the step from rest.
     outcome.measure("jerk-step/cosine", cosine.sample(0.0).jerk.abs());
     Ok(())
 }
 
-/// One law: the highest of `orders` derivatives on top, the velocity at the bottom, sections shaded in turn.
-fn law<P: Sectioned>(id: &str, title: &str, profile: &P, orders: usize) -> Figure {
+/// One law: the highest of `orders` derivatives on top, the velocity at the bottom, the limits of the first `limited`,
+/// sections shaded in turn.
+fn law<P: Sectioned>(id: &str, title: &str, profile: &P, orders: usize, limited: usize) -> Figure {
     let rows = [
         (velocity(), VELOCITY, "v_max"),
         (acceleration(), ACCELERATION, "a_max"),
@@ -104,8 +115,10 @@ fn law<P: Sectioned>(id: &str, title: &str, profile: &P, orders: usize) -> Figur
         }
         points.push((profile.duration(), value(profile.after())));
         let mut panel = Panel::new(quantity).line("", Role::Ours, points);
-        panel = panel.limit(limit, name);
-        if order > 0 {
+        if order < limited {
+            panel = panel.limit(limit, name);
+        }
+        if order > 0 && order < limited {
             panel = panel.limit(-limit, &format!("−{name}"));
         }
         for section in sections.iter().step_by(2) {
@@ -135,15 +148,16 @@ fn ramp_times(outcome: &mut Outcome) -> Result<()> {
         }
         outcome.measure(format!("ramp-time/{}", law.id()), ramp.duration());
         if let Some((time, _)) = law.printed() {
-            printed.push((time, VELOCITY));
+            printed.push((law.role(), (time, VELOCITY)));
         }
         if matches!(law, Law::SnapLimited | Law::Cosine) {
             outcome.measure(format!("longer/{}", law.id()), ramp.duration() / s_curve - 1.0);
         }
     }
     let figure = Figure::new("fig7", "Fig. 7: ramps to 0.2 m/s at up to 4 m/s²", Quantity::time());
-    outcome
-        .figure(figure.panel(speeds.marks("printed end of ramp", printed)).panel(accelerations).panel(jerks));
+    outcome.figure(
+        figure.panel(speeds.marks_of("printed end of ramp", printed)).panel(accelerations).panel(jerks),
+    );
     Ok(())
 }
 
@@ -155,10 +169,10 @@ fn error_panel(courses: &[(Law, ErrorCourse)]) -> Panel {
         panel = panel.line(law.id(), law.role(), course.in_micrometres());
         if let Some((_, peak)) = law.printed() {
             let (t, ours) = course.peak();
-            printed.push((t, 1e6 * peak.copysign(ours)));
+            printed.push((law.role(), (t, 1e6 * peak.copysign(ours))));
         }
     }
-    panel.marks("printed peak", printed)
+    panel.marks_of("printed peak", printed)
 }
 
 /// Figure 8 in continuous time, for every reading of its gains and of its move.
@@ -175,6 +189,7 @@ fn position_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
             outcome.measure(format!("peak-error/{}/{}", reading.id, law.id()), course.peak().1.abs());
             courses.push((law, course));
         }
+        context.progress.step();
         let peaks: Vec<f64> = courses.iter().map(|(_, course)| course.peak().1.abs()).collect();
         if reading.id.starts_with("exchanged") {
             let [largest, .., smallest] = peaks[..] else { continue };
@@ -234,6 +249,7 @@ fn sampled_errors(context: &Context, outcome: &mut Outcome) -> Result<()> {
                     None => outcome.measure(metric, "unstable"),
                 }
             }
+            context.progress.step();
             if reading.whole_move {
                 figure = figure.panel(Panel { y: Quantity::new(name, "e", "um"), ..error_panel(&courses) });
             }

@@ -19,7 +19,7 @@ pub enum FolderError {
     #[error("'{}' cannot be the name of a report's folder", .0.display())]
     Name(PathBuf),
     /// The system refused.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}", path.display())]
     Io {
         /// What was to be written.
         path: PathBuf,

@@ -142,6 +142,22 @@ mod tests {
         assert!((closed - simulated).abs() < 1e-6 * closed.abs(), "{closed} and {simulated}");
     }
 
+    /// The marks of the pictures are the published values of the table.
+    #[test]
+    fn what_is_marked_is_what_is_published() {
+        let text = crate::papers::acceleration_curves::EXPERIMENT.expected;
+        let rows = crate::expected::parse(text).expect("rows");
+        let published = |metric: String| {
+            let row = rows.iter().find(|row| row.metric == metric);
+            row.and_then(|row| row.published.as_ref()).and_then(crate::row::Value::number)
+        };
+        for law in Law::COMPARED {
+            let (time, peak) = law.printed().expect("printed");
+            assert_eq!(published(format!("ramp-time/{}", law.id())), Some(time));
+            assert_eq!(published(format!("peak-error/exchanged-40mm/{}", law.id())), Some(peak));
+        }
+    }
+
     #[test]
     fn the_paper_s_ramp_times_are_their_closed_forms() {
         let pi = std::f64::consts::PI;
