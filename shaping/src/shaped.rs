@@ -87,8 +87,8 @@ impl<P: Sectioned, const N: usize> Shaped<P, N> {
             sum = added(sum, impulse.amplitude, motion);
         }
         let amplitude = profiles::complex::norm(Complex::new(in_phase, ahead));
-        let lead = if amplitude > 0.0 { Real::atan2(ahead, in_phase) / w } else { 0.0 };
-        Extrema::of_motion(&sum.advanced(-lead), amplitude, w, lead, lead + (end - start))
+        let phase = Real::atan2(ahead, in_phase);
+        Extrema::of_motion(&sum, amplitude, w, phase, 0.0, end - start)
     }
 }
 

@@ -70,17 +70,18 @@ fn polynomial_integral(coefficients: [f64; 4], d: f64, p: Complex<f64>) -> Compl
     sum
 }
 
-/// The integrals of `sin(w (u - anchor))` and of `cos(w (u - anchor))` times `e^(p (end - u))` over the section.
+/// The integrals of the sine (of amplitude one) and of its cosine times `e^(p (end - u))` over the section.
 fn sine_integrals(section: &Section, p: Complex<f64>) -> (Complex<f64>, Complex<f64>) {
     if section.amplitude == 0.0 {
         return Default::default();
     }
     let d = section.length();
     let i = Complex::new(0.0, 1.0);
+    let lead = section.phase / section.angular_frequency;
     // integral from 0 to d of e^(q (x + x0)) e^(p (d - x)) dx = e^(q (d + x0)) d phi_1((p - q) d), q = -+ i w.
     let turning = |q: Complex<f64>| {
         let [phi_1, ..] = phi_functions((p - q) * d);
-        complex::exp(q * section.local_ends().1) * phi_1 * d
+        complex::exp(q * (section.local_ends().1 + lead)) * phi_1 * d
     };
     let (ahead, behind) = (turning(i * section.angular_frequency), turning(-i * section.angular_frequency));
     ((ahead - behind) / (2.0 * i), (ahead + behind) * 0.5)
