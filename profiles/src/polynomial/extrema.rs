@@ -152,8 +152,9 @@ impl Zeros {
 
 /// The place between `left` and `right` where `f` changes sign, to the last bit.
 fn bisect(f: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> Option<f64> {
-    let at_left = f(left);
-    if at_left * f(right) >= 0.0 {
+    let (at_left, at_right) = (f(left), f(right));
+    // No product, which small values would make zero.
+    if !(at_left < 0.0 && at_right > 0.0 || at_left > 0.0 && at_right < 0.0) {
         return None;
     }
     // Astride zero the halves could shrink for a thousand steps; 200 leave 1e-60 of the interval.
