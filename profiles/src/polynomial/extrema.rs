@@ -163,7 +163,9 @@ fn bisect(f: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> Option<f64> 
         if middle <= left || middle >= right {
             break;
         }
-        if (f(middle) < 0.0) == (at_left < 0.0) {
+        let at_middle = f(middle);
+        // A zero ends on the same side whichever way the function goes.
+        if at_middle != 0.0 && (at_middle < 0.0) == (at_left < 0.0) {
             left = middle;
         } else {
             right = middle;

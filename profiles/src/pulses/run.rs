@@ -17,7 +17,7 @@ pub(super) struct Run {
     /// The motion there.
     first: Sample,
     last: Sample,
-    /// 1 forward, -1 backward.
+    /// 1 forward, -1 backward, 0 where nothing moves.
     sign: f64,
     /// Pulses sent when it ends.
     goal: i64,
@@ -53,7 +53,11 @@ impl Run {
     /// Pulses still to be sent, at most zero where there is none, after `count` of them.
     pub(super) fn left(&self, count: i64) -> i64 {
         let ahead = self.goal - count;
-        if self.sign < 0.0 { -ahead } else { ahead }
+        match self.sign {
+            sign if sign > 0.0 => ahead,
+            sign if sign < 0.0 => -ahead,
+            _ => 0,
+        }
     }
 
     /// Where the next pulse is sent, in pulses.
@@ -181,7 +185,8 @@ impl<P: Sectioned> Iterator for Runs<'_, P> {
             }
         };
         let (first, last) = (section.at_local(from), section.at_local(to));
-        let sign = if last.position < first.position { -1.0 } else { 1.0 };
+        let way = last.position - first.position;
+        let sign = if way == 0.0 { 0.0 } else { 1.0_f64.copysign(way) };
         let goal = if self.section.is_none() {
             self.total
         } else {
