@@ -86,6 +86,12 @@ impl<const N: usize> ImpulseTrain<N> {
         self.impulses().last().map_or(0.0, |impulse| impulse.time)
     }
 
+    /// Mean delay of a shaped command, `sum of A_k t_k`, s: that of a ramp once the last impulse has acted.
+    #[must_use]
+    pub fn mean_delay(&self) -> f64 {
+        self.impulses().iter().map(|impulse| impulse.amplitude * impulse.time).sum()
+    }
+
     /// Both trains, one after the other: the convolution, which has the zeros of both. Impulses at the same time (to
     /// four roundings) become one.
     ///
