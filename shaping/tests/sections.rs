@@ -38,8 +38,10 @@ fn scales(e: Extrema) -> [f64; 5] {
 fn rounding<P: Sectioned>(profile: &P, filter: &DelayFilter, duration: f64) -> [f64; 5] {
     let gain: f64 = filter.amplitudes().iter().map(|a| a.abs()).sum();
     let scale = scales(profile.extrema());
+    let w = profile.section(0).map_or(0.0, |section| section.angular_frequency);
     std::array::from_fn(|k| {
-        let next = scale.get(k + 1).copied().unwrap_or(0.0);
+        // That of the snap of a sine is its angular frequency times the snap.
+        let next = scale.get(k + 1).copied().unwrap_or(w * scale[4]);
         32.0 * f64::EPSILON * gain * (scale[k] + next * duration)
     })
 }
