@@ -344,6 +344,25 @@ fn what_is_no_whole_pulse_is_told() {
 }
 
 #[test]
+fn a_crossing_that_is_only_touched_is_not_sent() {
+    let sent = |pulses: f64| {
+        let swing = Swing { distance: pulses, slope: 0.0, half_waves: 2 };
+        PulseTrain::new(swing, 1.0).expect("train").pulses().count()
+    };
+    // There and back: the last pulse is sent and taken back, or neither.
+    assert_eq!((sent(20.4), sent(20.5 - 1e-12), sent(20.5)), (40, 40, 40));
+    assert_eq!((sent(20.5 + 1e-12), sent(20.6), sent(21.0)), (42, 42, 42));
+    // What is that near is refused by a drive that needs time to turn: 2 acos(1 - 2e-12 / 20.5) / pi for a cosine.
+    let swing = Swing { distance: 20.5 + 1e-12, slope: 0.0, half_waves: 2 };
+    let train = PulseTrain::new(swing, 1.0).expect("train");
+    assert!(matches!(
+        train.with_reversal_time(1e-6),
+        // The rounding of 20.5, 4e-15, is 0.4 % of 1e-12 and 0.2 % of its root; that of an instant less.
+        Err(PulseError::Reversal { interval, .. }) if (interval / 2.81e-7 - 1.0).abs() < 0.01
+    ));
+}
+
+#[test]
 fn velocity_ramps_are_sent_until_they_end() {
     let limits = Limits::new(1.0, 10.0, 100.0).expect("limits");
     let ramp = SCurve::velocity_ramp(-0.5, 0.8, &limits).expect("plan");

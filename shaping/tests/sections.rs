@@ -222,6 +222,12 @@ fn ramps_count_from_their_start_and_go_on_from_their_end() {
         assert!(
             (last.position - after.position).abs() < 1e-14 && (last.velocity - after.velocity).abs() < 1e-13
         );
+        for k in 0..200 {
+            let t = end * f64::from(k) / 200.0;
+            let section = shaped.section_at(t).expect("section");
+            assert!((section.at(t).position - shaped.sample(t).position).abs() < 1e-14);
+            assert!((section.at(t).velocity - shaped.sample(t).velocity).abs() < 1e-14);
+        }
         // The way is the integral of the velocity, by Simpson's rule over 4000 steps.
         let velocity = |k: i32| shaped.sample(end * f64::from(k) / 4000.0).velocity;
         let simpson = |k: i32| velocity(2 * k) + 4.0 * velocity(2 * k + 1) + velocity(2 * k + 2);
