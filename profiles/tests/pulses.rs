@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{CASES, Law, balanced_move, lopsided, magnitude};
+use common::{CASES, Law, any_move, balanced_move, lopsided, magnitude};
 use profiles::{
     Cosine, Direction, Limits, Profile, Pulse, PulseError, PulseTrain, SCurve, Section, Sectioned,
     SnapLimited, Trapezoid,
@@ -143,6 +143,15 @@ fn holds<L: Law>(distance: f64, limits: &Limits, pulses: f64, divisions: f64) ->
     Ok(())
 }
 
+/// Nothing but what must hold whatever the magnitudes are.
+fn is_sent<L: Law>(profile: &L, pulses: f64) -> Result<(), TestCaseError> {
+    let train = PulseTrain::new(profile, profile.after().position.abs() / pulses)?;
+    stays_within_half_a_pulse(&train)?;
+    let counts = train.counts(profile.duration() / 9.9)?;
+    prop_assert_eq!(counts.map(i64::from).sum::<i64>(), train.total());
+    Ok(())
+}
+
 /// A profile that goes there and back along half waves of a sine, `distance (1 - cos(pi t)) / 2 + slope t`.
 #[derive(Debug, Clone, Copy)]
 struct Swing {
@@ -208,6 +217,14 @@ proptest! {
         holds::<SnapLimited>(distance, &limits, pulses, divisions)?;
         holds::<Cosine>(distance, &limits, pulses, divisions)?;
         holds::<SCurve>(distance, &lopsided(&limits, 0.3, 1.7), pulses, divisions)?;
+    }
+
+    #[test]
+    fn any_magnitudes_at_all_are_sent((distance, limits) in any_move(), pulses in magnitude(0.1, 100.0)) {
+        is_sent(&Trapezoid::plan(distance, &limits)?, pulses)?;
+        is_sent(&SCurve::plan(distance, &limits)?, pulses)?;
+        is_sent(&SnapLimited::plan(distance, &limits)?, pulses)?;
+        is_sent(&Cosine::plan(distance, &limits)?, pulses)?;
     }
 
     #[test]

@@ -206,6 +206,32 @@ proptest! {
 }
 
 #[test]
+fn the_published_pulse_axis_is_sent_through_its_filter() {
+    // J. Wu, Y. Zhang 2019: 4000 pulses, from 10 kHz, at most 300 kHz, 10 000 kHz/s; a filter of 20 ms for the pole with
+    // 0.2123 times 117 1/s and 104.8 rad/s.
+    let limits = Limits::new(300e3, 1e7, f64::INFINITY).expect("limits");
+    let profile = Trapezoid::with_speeds(4000.0, 10e3, 10e3, &limits).expect("plan");
+    let (decay, damped) = (0.2123 * 117.0, 104.8_f64);
+    let w = damped.hypot(decay);
+    let mode = Mode::new(w, decay / w).expect("mode");
+    let shaped = Shaped::new(profile, *DelayFilter::positive(mode, 0.02).expect("filter").train());
+    assert!(residual_vibration(&profile, mode) > 100.0 && residual_vibration(&shaped, mode) < 1e-11);
+    assert!((shaped.duration() - profile.duration() - 0.04).abs() < 1e-15);
+    // The filter never asks for more than the drive takes, and starts with its share of the start frequency.
+    let train = PulseTrain::new(&shaped, 1.0).expect("train");
+    let train = train.with_shortest_interval(1.0 / 300e3).expect("drive");
+    let first = DelayFilter::positive(mode, 0.02).expect("filter").amplitudes()[0];
+    assert!((shaped.sample(0.0).velocity - first * 10e3).abs() < 1e-9);
+    let sent: Vec<_> = train.pulses().collect();
+    assert_eq!((sent.len(), train.total()), (4000, 4000));
+    // The first one by hand: first (f0 t + a t^2 / 2) = 1/2.
+    let by_hand = (-10e3 + (1e8 + 1e7 / first).sqrt()) / 1e7;
+    assert!((sent[0].instant - by_hand).abs() < 1e-17);
+    let ticks: u64 = train.periods(72e6).expect("clock").map(|period| period.ticks).sum();
+    assert_eq!(ticks, (sent[3999].instant * 72e6).round() as u64);
+}
+
+#[test]
 fn ramps_count_from_their_start_and_go_on_from_their_end() {
     let limits = Limits::new(1.0, 4.0, 40.0).expect("limits");
     let mode = Mode::from_hz(5.0, 0.1).expect("mode");
