@@ -4,10 +4,11 @@
 
 mod common;
 
+use common::swing::Swing;
 use common::{CASES, Law, any_move, balanced_move, lopsided, magnitude};
 use profiles::{
-    Cosine, Direction, Limits, Profile, Pulse, PulseError, PulseTrain, SCurve, Section, Sectioned,
-    SnapLimited, Trapezoid,
+    Cosine, Direction, Limits, Profile, Pulse, PulseError, PulseTrain, SCurve, Sectioned, SnapLimited,
+    Trapezoid,
 };
 use proptest::prelude::*;
 
@@ -150,57 +151,6 @@ fn is_sent<L: Law>(profile: &L, pulses: f64) -> Result<(), TestCaseError> {
     let counts = train.counts(profile.duration() / 9.9)?;
     prop_assert_eq!(counts.map(i64::from).sum::<i64>(), train.total());
     Ok(())
-}
-
-/// A profile that goes there and back along half waves of a sine, `distance (1 - cos(pi t)) / 2 + slope t`.
-#[derive(Debug, Clone, Copy)]
-struct Swing {
-    distance: f64,
-    slope: f64,
-    half_waves: usize,
-}
-
-impl Profile for Swing {
-    fn duration(&self) -> f64 {
-        self.half_waves as f64
-    }
-    fn sample(&self, t: f64) -> profiles::Sample {
-        self.section_at(t).map_or(self.after(), |section| section.at(t))
-    }
-    fn extrema(&self) -> profiles::Extrema {
-        let all = (0..).map_while(|k| self.section(k)).map(|s| {
-            let w = s.angular_frequency;
-            profiles::Extrema::of_motion(&s.polynomial, s.amplitude, w, s.phase, 0.0, s.reach)
-        });
-        all.reduce(profiles::Extrema::including).expect("sections")
-    }
-    fn response(&self, _: profiles::Complex<f64>) -> profiles::Complex<f64> {
-        unreachable!("not asked for")
-    }
-}
-
-impl Sectioned for Swing {
-    const HARMONIC: bool = true;
-    fn section(&self, index: usize) -> Option<Section> {
-        let start = index as f64;
-        (index < self.half_waves).then(|| Section {
-            start,
-            end: start + 1.0,
-            anchor: start,
-            reach: 1.0,
-            polynomial: profiles::Sample::cruising(0.5 * self.distance + self.slope * start, self.slope),
-            amplitude: 0.5 * self.distance,
-            angular_frequency: std::f64::consts::PI,
-            phase: std::f64::consts::PI * (start - 0.5),
-        })
-    }
-    fn before(&self) -> profiles::Sample {
-        profiles::Sample::default()
-    }
-    fn after(&self) -> profiles::Sample {
-        let end = if self.half_waves.is_multiple_of(2) { 0.0 } else { self.distance };
-        profiles::Sample::at_rest(end + self.slope * self.half_waves as f64)
-    }
 }
 
 proptest! {
