@@ -124,8 +124,7 @@ impl<P: Sectioned, F: Real> Cursor<P, F> {
         self.since = 0;
         let mut now = self.first as f64 * self.period;
         now += instant_rounding(now);
-        let section = (0..).map_while(|k| self.profile.section(k)).find(|section| now < section.end);
-        let section = section.unwrap_or_else(|| {
+        let section = self.profile.section_at(now).unwrap_or_else(|| {
             let end = self.profile.duration();
             Section::cruise(end, f64::INFINITY, self.profile.after())
         });
@@ -146,7 +145,7 @@ impl<F: Real> Expansion<F> {
             square: [s / 2.0, 0.0].map(cast),
             low: [[v, a, j, s], [p, v, a, j]].map(|row| row.map(cast)),
             amplitude: cast(section.amplitude),
-            phase: cast(section.angular_frequency * x),
+            phase: cast(section.angle(x)),
             angular_frequency: cast(section.angular_frequency),
         }
     }
@@ -167,7 +166,7 @@ impl<F: Real> Expansion<F> {
     #[inline]
     fn with_sine(&self, motion: Sample<F>, x: F) -> Sample<F> {
         let w = self.angular_frequency;
-        if w == F::ZERO { motion } else { with_sine(motion, self.amplitude, w, x + self.phase / w) }
+        with_sine(motion, self.amplitude, w, w * x + self.phase)
     }
 }
 

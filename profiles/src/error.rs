@@ -111,6 +111,64 @@ pub enum ClockError {
     },
 }
 
+/// A pulse train that cannot be sent.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PulseError {
+    /// A pulse size that is not positive and finite, m or rad.
+    #[error("the size of a pulse must be positive and finite, got {0}")]
+    Size(f64),
+    /// More pulses than instants can be told apart.
+    #[error("top speed kept throughout would take {pulses} pulses, the most is {most}")]
+    TooManyPulses {
+        /// Pulses there would be.
+        pulses: f64,
+        /// Pulses allowed.
+        most: f64,
+    },
+    /// An interval of the drive that is negative or not finite, s.
+    #[error("an interval between pulses must be finite and not negative, got {0} s")]
+    Interval(f64),
+    /// A profile faster than the drive.
+    #[error("the profile reaches {frequency} pulses/s, the drive takes {most}")]
+    TooFast {
+        /// Peak velocity, pulses/s.
+        frequency: f64,
+        /// Highest frequency of the drive, pulses/s.
+        most: f64,
+    },
+    /// A profile that turns faster than the drive.
+    #[error("the profile turns {interval} s after the pulse at {instant} s, the drive needs {least} s")]
+    Reversal {
+        /// Instant of the last pulse before the turn, s.
+        instant: f64,
+        /// Time until the first pulse after it, s.
+        interval: f64,
+        /// Time the drive needs, s.
+        least: f64,
+    },
+    /// A timer frequency that is not positive and finite, ticks/s.
+    #[error("a timer must run at a positive and finite frequency, got {0} ticks/s")]
+    Frequency(f64),
+    /// A timer too slow for the pulses, or for what the drive needs between them.
+    #[error("an interval between pulses could be {ticks} ticks of the timer, it must be at least {needed}")]
+    Ticks {
+        /// Whole ticks that the shortest interval may be cut to.
+        ticks: f64,
+        /// Ticks it must have.
+        needed: f64,
+    },
+    /// More pulses in one tick than a count can hold.
+    #[error("a tick could hold {pulses} pulses, more than a count can")]
+    CountRange {
+        /// Pulses there could be.
+        pulses: f64,
+    },
+    /// A clock that cannot drive the profile.
+    #[error(transparent)]
+    Clock(#[from] ClockError),
+}
+
 /// A table that cannot be written.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

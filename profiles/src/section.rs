@@ -14,6 +14,11 @@ pub trait Sectioned: Profile {
     /// The section with this index in order of time, `None` past the last one.
     fn section(&self, index: usize) -> Option<Section>;
 
+    /// The section in which the instant `t` in s lies: the first one before the start, `None` from the end on.
+    fn section_at(&self, t: f64) -> Option<Section> {
+        (0..).map_while(|index| self.section(index)).find(|section| t < section.end)
+    }
+
     /// The motion before the start, at the start.
     fn before(&self) -> Sample;
 
@@ -26,6 +31,9 @@ impl<P: Sectioned> Sectioned for &P {
     fn section(&self, index: usize) -> Option<Section> {
         (**self).section(index)
     }
+    fn section_at(&self, t: f64) -> Option<Section> {
+        (**self).section_at(t)
+    }
     fn before(&self) -> Sample {
         (**self).before()
     }
@@ -34,7 +42,7 @@ impl<P: Sectioned> Sectioned for &P {
     }
 }
 
-/// One section: `polynomial(x) + amplitude sin(w x)` of the local time `x = t - anchor`, for `start <= t < end`.
+/// One section: `polynomial(x) + amplitude sin(w x + phase)` of the local time `x = t - anchor`, for `start <= t < end`.
 ///
 /// An instant `t` far from zero is coarser than a short section. The local time is therefore kept within
 /// `[0, reach]` (or `[reach, 0]`), so that no value leaves the range it was planned for.
@@ -54,6 +62,8 @@ pub struct Section {
     pub amplitude: f64,
     /// Angular frequency `w` of the sine, rad/s.
     pub angular_frequency: f64,
+    /// Phase of the sine at the anchor, rad.
+    pub phase: f64,
 }
 
 impl Section {
@@ -61,7 +71,16 @@ impl Section {
     #[must_use]
     pub(crate) fn cruise(start: f64, end: f64, motion: Sample) -> Self {
         let reach = end - start;
-        Self { start, end, anchor: start, reach, polynomial: motion, amplitude: 0.0, angular_frequency: 0.0 }
+        Self {
+            start,
+            end,
+            anchor: start,
+            reach,
+            polynomial: motion,
+            amplitude: 0.0,
+            angular_frequency: 0.0,
+            phase: 0.0,
+        }
     }
 
     /// The local time of the instant `t`, s.
@@ -88,10 +107,17 @@ impl Section {
         (self.reach.min(0.0), self.reach.max(0.0))
     }
 
+    /// Angle of the sine at the local time `x` in s, rad.
+    #[must_use]
+    pub(crate) fn angle(&self, x: f64) -> f64 {
+        self.angular_frequency * x + self.phase
+    }
+
     /// The motion at the local time `x`, s.
     #[must_use]
+    #[inline]
     pub fn at_local(&self, x: f64) -> Sample {
-        with_sine(self.polynomial.advanced(x), self.amplitude, self.angular_frequency, x)
+        with_sine(self.polynomial.advanced(x), self.amplitude, self.angular_frequency, self.angle(x))
     }
 }
 
@@ -106,13 +132,13 @@ pub(crate) fn local_time(t: f64, anchor: f64, reach: f64) -> f64 {
     if x < to { x } else { to }
 }
 
-/// `motion` plus `amplitude sin(w x)` and its derivatives.
+/// `motion` plus a sine of angular frequency `w` at `angle`, and its derivatives.
 #[inline]
-pub(crate) fn with_sine<F: Real>(motion: Sample<F>, amplitude: F, w: F, x: F) -> Sample<F> {
+pub(crate) fn with_sine<F: Real>(motion: Sample<F>, amplitude: F, w: F, angle: F) -> Sample<F> {
     if amplitude == F::ZERO {
         return motion;
     }
-    let (sine, cosine) = (w * x).sin_cos();
+    let (sine, cosine) = angle.sin_cos();
     let velocity = amplitude * w;
     let acceleration = velocity * w;
     let jerk = acceleration * w;

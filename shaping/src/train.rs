@@ -1,6 +1,8 @@
 //! Trains of impulses.
 
-use profiles::{Complex, Mode, complex};
+use core::f64::consts::TAU;
+
+use profiles::{Complex, Interval, Mode, complex};
 
 use crate::error::TrainError;
 
@@ -86,6 +88,12 @@ impl<const N: usize> ImpulseTrain<N> {
         self.impulses().last().map_or(0.0, |impulse| impulse.time)
     }
 
+    /// Mean delay of a shaped command, `sum of A_k t_k`, s: that of a ramp once the last impulse has acted.
+    #[must_use]
+    pub fn mean_delay(&self) -> f64 {
+        self.impulses().iter().map(|impulse| impulse.amplitude * impulse.time).sum()
+    }
+
     /// Both trains, one after the other: the convolution, which has the zeros of both. Impulses at the same time (to
     /// four roundings) become one.
     ///
@@ -158,9 +166,65 @@ impl<const N: usize> ImpulseTrain<N> {
         complex::norm(self.response(mode.pole() * (1.0 + frequency_error)))
     }
 
+    /// The insensitivity of the train: the range of frequency errors around zero, as parts of the frequency of `mode`,
+    /// in which no more than `tolerance` of the vibration of a step is left.
+    ///
+    /// The lower end is at least -1, where the frequency is zero. `None` if the train leaves more than `tolerance` of
+    /// the mode itself, or the tolerance is NaN. The upper end is infinite if nothing above it, up to a hundred turns of
+    /// the last impulse, leaves more.
+    ///
+    /// ```
+    /// use profiles::Mode;
+    /// use shaping::DelayFilter;
+    ///
+    /// // The ZVD shaper keeps below 5 % over 28.7 % of the frequency.
+    /// let mode = Mode::from_hz(40.0, 0.0)?;
+    /// let band = DelayFilter::zvd(mode)?.train().insensitivity(mode, 0.05).ok_or("not at rest")?;
+    /// assert!((band.upper - band.lower - 0.287).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn insensitivity(&self, mode: Mode, tolerance: f64) -> Option<Interval> {
+        let within = |error: f64| self.sensitivity(mode, error) <= tolerance;
+        if !within(0.0) {
+            return None;
+        }
+        // Steps of 1/64 turn of the last impulse: a lobe of the sensitivity is no narrower than about half a turn.
+        let turns = mode.damped_angular_frequency() * self.duration() / TAU;
+        let step = 1.0 / (64.0 * turns.max(1.0));
+        let end = |outward: f64, most: f64| {
+            let mut inside = 0.0;
+            while inside < most {
+                let next = (inside + step).min(most);
+                if !within(outward * next) {
+                    return Some(outward * last_within(|error| within(outward * error), inside, next));
+                }
+                inside = next;
+            }
+            None
+        };
+        let upper = end(1.0, 100.0 / turns.max(1.0)).unwrap_or(f64::INFINITY);
+        Some(Interval::new(end(-1.0, 1.0).unwrap_or(-1.0), upper))
+    }
+
     fn sum(&self, exponent: impl Fn(f64) -> Complex<f64>) -> Complex<f64> {
         let terms =
             self.impulses().iter().map(|impulse| complex::exp(exponent(impulse.time)) * impulse.amplitude);
         terms.fold(Complex::new(0.0, 0.0), |sum, term| sum + term)
+    }
+}
+
+/// The last place between `inside` and `outside` that is `within`, to the last bit.
+fn last_within(within: impl Fn(f64) -> bool, mut inside: f64, mut outside: f64) -> f64 {
+    loop {
+        let middle = 0.5 * (inside + outside);
+        if middle <= inside || middle >= outside {
+            return inside;
+        }
+        if within(middle) {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
     }
 }

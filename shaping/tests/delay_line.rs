@@ -46,6 +46,70 @@ proptest! {
     }
 }
 
+/// Any train of up to four impulses, signs mixed, within 20 ms.
+fn train() -> impl Strategy<Value = ImpulseTrain<4>> {
+    let impulses = proptest::collection::vec((0.0..0.02, prop_oneof![0.1..1.0, -0.2..-0.05]), 1..5);
+    impulses.prop_filter_map("amplitudes that nearly cancel", |mut impulses: Vec<(f64, f64)>| {
+        impulses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let impulses: Vec<Impulse> = impulses.into_iter().map(|(t, a)| Impulse::new(t, a)).collect();
+        let sum: f64 = impulses.iter().map(|impulse| impulse.amplitude).sum();
+        (sum.abs() > 0.2).then(|| ImpulseTrain::new(&impulses).expect("train"))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn the_line_is_the_offline_convolution(
+        train in train(),
+        hz in 5.0..200.0,
+        input in proptest::collection::vec(-1.0..1.0, 1..200),
+        rest in -1.0..1.0,
+    ) {
+        let mode = Mode::from_hz(hz, 0.05).expect("mode");
+        let line = DelayLine::<f64, 8, 24>::new(&train, mode, 1e-3).expect("line");
+        let mut state = DelayLineState::at_rest(rest);
+        let online: Vec<f64> = input.iter().map(|u| line.update(&mut state, *u).output).collect();
+        // The whole record at once: a kernel laid over it, with what was there before.
+        let mut kernel = [0.0; 24];
+        line.taps().for_each(|(delay, weight)| kernel[delay] += weight);
+        let record: Vec<f64> = std::iter::repeat_n(rest, 23).chain(input).collect();
+        for (online, window) in online.iter().zip(record.windows(24)) {
+            let offline: f64 = kernel.iter().zip(window.iter().rev()).map(|(weight, u)| weight * u).sum();
+            prop_assert!((online - offline).abs() < 1e-14, "{online} {offline}");
+        }
+    }
+
+    #[test]
+    fn the_taps_are_to_the_mode_what_the_impulses_were(
+        train in train(),
+        hz in 5.0..200.0,
+        z in 0.0..0.5,
+        detuned in 0.5..1.5,
+    ) {
+        let (mode, period) = (Mode::from_hz(hz, z).expect("mode"), 1e-3);
+        let line = DelayLine::<f64, 8, 24>::new(&train, mode, period).expect("line");
+        let taps: Vec<(usize, f64)> = line.taps().collect();
+        prop_assert!((taps.iter().map(|tap| tap.1).sum::<f64>() - 1.0).abs() < 1e-14);
+        // One scale for all, real, that makes the taps add up to one: any train, not only one with a zero there.
+        let p = mode.pole();
+        let seen = taps.iter().fold(Complex::new(0.0, 0.0), |sum, (k, a)| sum + (-p * period * *k as f64).exp() * *a);
+        let exact = train.transform(p);
+        let size: f64 = taps.iter().map(|(k, a)| a.abs() * (-p.re * period * *k as f64).exp()).sum();
+        prop_assert!((seen * exact.conj()).im.abs() < 1e-13 * size * exact.norm() + 1e-13 * size * size);
+        // What is left in another mode, stepped exactly, is the closed form of the taps.
+        let beside = Mode::from_hz(hz * detuned, z).expect("mode");
+        let mut state = DelayLineState::at_rest(0.0);
+        let left = left_in(beside, period, (0..24).map(|_| line.update(&mut state, 1.0).output));
+        let response = taps.iter().fold(Complex::new(0.0, 0.0), |sum, (k, a)| {
+            sum + (beside.pole() * period * (23 - k) as f64).exp() * *a
+        });
+        let gain: f64 = taps.iter().map(|tap| tap.1.abs()).sum();
+        prop_assert!((left - response.norm()).abs() < 1e-12 * gain, "{left} {}", response.norm());
+    }
+}
+
 #[test]
 fn at_1_khz_and_40_hz_what_is_left_is_rounding_and_plain_rounding_of_delays_is_not() {
     let period = 1e-3;

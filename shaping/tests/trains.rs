@@ -85,6 +85,52 @@ fn half_a_period_is_the_zvd_shaper() {
 }
 
 #[test]
+fn the_width_of_the_band_is_known_for_undamped_modes() {
+    // |cos(pi/2 (1 + e))| for two impulses half a period apart, its square for the ZVD shaper.
+    let mode = Mode::new(100.0, 0.0).expect("mode");
+    let half = 0.5 * mode.damped_period();
+    let zv = ImpulseTrain::<2>::new(&[Impulse::new(0.0, 0.5), Impulse::new(half, 0.5)]).expect("train");
+    let zvd = *DelayFilter::zvd(mode).expect("filter").train();
+    for tolerance in [0.01_f64, 0.05, 0.3] {
+        let known = tolerance.asin() * std::f64::consts::FRAC_2_PI;
+        let band = zv.insensitivity(mode, tolerance).expect("band");
+        assert!((band.upper - known).abs() < 1e-14 && (band.lower + known).abs() < 1e-14, "{band:?}");
+        let known = tolerance.sqrt().asin() * std::f64::consts::FRAC_2_PI;
+        let band = zvd.insensitivity(mode, tolerance).expect("band");
+        assert!((band.upper - known).abs() < 1e-14 && (band.lower + known).abs() < 1e-14, "{band:?}");
+    }
+    // Everything, nothing, and a frequency of zero.
+    let all = zv.insensitivity(mode, 1.0).expect("band");
+    assert!(all.upper.is_infinite() && (all.lower + 1.0).abs() < 1e-15);
+    let detuned = Mode::new(110.0, 0.0).expect("mode");
+    assert_eq!(zv.insensitivity(detuned, 0.05), None);
+    assert_eq!(zv.insensitivity(mode, f64::NAN), None);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn the_band_ends_where_the_sensitivity_passes_the_tolerance(
+        mode in mode(),
+        turns in turns(),
+        tolerance in 0.01..0.5,
+    ) {
+        let filter = DelayFilter::new(mode, turns * mode.damped_period()).expect("filter");
+        let band = filter.train().insensitivity(mode, tolerance).expect("band");
+        for k in 0..=200 {
+            let reach = band.lower + (band.upper.min(10.0) - band.lower) * f64::from(k) / 200.0;
+            prop_assert!(filter.train().sensitivity(mode, reach) <= tolerance * (1.0 + 1e-9));
+        }
+        for end in [band.lower, band.upper] {
+            if end > -1.0 && end.is_finite() {
+                prop_assert!(filter.train().sensitivity(mode, end * (1.0 + 1e-9)) >= tolerance * (1.0 - 1e-6));
+            }
+        }
+    }
+}
+
+#[test]
 fn the_transform_is_the_response_seen_from_the_start() {
     let train =
         ImpulseTrain::<4>::new(&[Impulse::new(0.0, 1.0), Impulse::new(0.3, -0.5), Impulse::new(0.7, 1.5)])
@@ -94,6 +140,7 @@ fn the_transform_is_the_response_seen_from_the_start() {
     let by_hand = Complex::new(0.5, 0.0) - (-s * 0.3).exp() * 0.25 + (-s * 0.7).exp() * 0.75;
     assert!((train.transform(s) - by_hand).norm() < 1e-15);
     assert!((train.response(s) - (s * 0.7).exp() * by_hand).norm() < 1e-15);
+    assert!((train.mean_delay() - (-0.25 * 0.3 + 0.75 * 0.7)).abs() < 1e-16);
 }
 
 #[test]

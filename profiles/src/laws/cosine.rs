@@ -109,6 +109,7 @@ impl Cosine {
                 polynomial: stretch.motion(s.polynomial),
                 amplitude: stretch.position(s.amplitude),
                 angular_frequency: s.angular_frequency * (self.duration() / duration),
+                phase: s.phase,
             }
         });
         Ok(Self { sections, before: stretch.motion(self.before), after: stretch.motion(self.after) })
@@ -141,6 +142,7 @@ impl Wave {
             polynomial: Sample::cruising(position, self.from + half),
             amplitude: -half / w,
             angular_frequency: w,
+            phase: 0.0,
         }
     }
 }

@@ -54,6 +54,9 @@ macro_rules! polynomial_law {
             fn section(&self, index: usize) -> Option<$crate::Section> {
                 self.0.section(index)
             }
+            fn section_at(&self, t: f64) -> Option<$crate::Section> {
+                self.0.section_at(t)
+            }
             fn before(&self) -> $crate::Sample {
                 self.0.before()
             }

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use crate::profile::Extrema;
 use crate::quantities::{Interval, Real, Sample};
-use crate::section::{Sectioned, with_sine};
+use crate::section::{Section, Sectioned, with_sine};
 
 const NOTHING: Interval = Interval { lower: f64::INFINITY, upper: f64::NEG_INFINITY };
 
@@ -17,47 +17,32 @@ pub(crate) fn over<S: Sectioned>(profile: &S) -> Extrema {
     let sections = (0..).map_while(|k| profile.section(k)).filter(|section| section.length() > 0.0);
     let ranges = sections.map(|section| {
         let (from, to) = section.local_ends();
-        Extrema::of_motion(&section.polynomial, section.amplitude, section.angular_frequency, from, to)
+        let (w, phase) = (section.angular_frequency, section.phase);
+        Extrema::of_motion(&section.polynomial, section.amplitude, w, phase, from, to)
     });
     ranges.reduce(Extrema::including).unwrap_or_else(|| Extrema::at(&profile.before()))
 }
 
 impl Extrema {
-    /// The exact range of `motion` advanced by `x`, plus `amplitude sin(w x)` in the position, for `from <= x <= to`
-    /// in s, with `w > 0` in rad/s and at most a few waves in between.
+    /// The exact range of `motion` advanced by `x`, plus `amplitude sin(w x + phase)` in the position, for
+    /// `from <= x <= to` in s, with `w > 0` in rad/s and at most a few waves in between.
     ///
     /// A derivative turns where the next one is zero, and changes sign at most once between two zeros of the one
     /// after that: from the highest derivative down every zero is bracketed, and bisected to rounding.
     #[must_use]
-    pub fn of_motion(motion: &Sample, amplitude: f64, w: f64, from: f64, to: f64) -> Self {
-        let at = |x: f64| with_sine(motion.advanced(x), amplitude, w, x);
+    pub fn of_motion(motion: &Sample, amplitude: f64, w: f64, phase: f64, from: f64, to: f64) -> Self {
+        let at = |x: f64| with_sine(motion.advanced(x), amplitude, w, w * x + phase);
         let mut extrema = Self::at(&at(from)).including(Self::at(&at(to)));
-        let mut zeros = Zeros::default();
-        if amplitude != 0.0 {
-            // The fifth derivative is that of the sine alone: a cosine.
-            let mut wave = Real::ceil(w * from / PI - 0.5);
-            while (wave + 0.5) * PI < w * to && zeros.push((wave + 0.5) * PI / w) {
-                wave += 1.0;
-            }
-            for x in zeros.iter() {
-                extrema.snap = extrema.snap.including(at(x).snap);
-            }
-        }
-        let derivatives: [fn(&Sample) -> f64; 4] =
-            [|s| s.snap, |s| s.jerk, |s| s.acceleration, |s| s.velocity];
-        for (order, derivative) in derivatives.into_iter().enumerate() {
-            zeros = zeros.between(from, to, |x| derivative(&at(x)));
-            for x in zeros.iter() {
-                let turn = at(x);
-                let (range, value) = match order {
-                    0 => (&mut extrema.jerk, turn.jerk),
-                    1 => (&mut extrema.acceleration, turn.acceleration),
-                    2 => (&mut extrema.velocity, turn.velocity),
-                    _ => (&mut extrema.position, turn.position),
-                };
-                *range = range.including(value);
-            }
-        }
+        turns(&at, amplitude != 0.0, w, phase, from, to, |order, turn| {
+            let (range, value) = match order {
+                0 => (&mut extrema.snap, turn.snap),
+                1 => (&mut extrema.jerk, turn.jerk),
+                2 => (&mut extrema.acceleration, turn.acceleration),
+                3 => (&mut extrema.velocity, turn.velocity),
+                _ => (&mut extrema.position, turn.position),
+            };
+            *range = range.including(value);
+        });
         extrema
     }
 
@@ -88,9 +73,44 @@ impl Extrema {
     }
 }
 
+/// The places inside a section, in local time, where the velocity changes sign: between them the position is monotone.
+pub(crate) fn reversals(section: &Section) -> Zeros {
+    let (from, to) = section.local_ends();
+    let (w, phase) = (section.angular_frequency, section.phase);
+    turns(&|x| section.at_local(x), section.amplitude != 0.0, w, phase, from, to, |_, _| ())
+}
+
+/// Calls `found` for every place where a derivative turns, with its order counted from the snap, 0, to the position, 4,
+/// and gives the places where the position turns.
+fn turns(
+    at: &impl Fn(f64) -> Sample,
+    harmonic: bool,
+    w: f64,
+    phase: f64,
+    from: f64,
+    to: f64,
+    mut found: impl FnMut(usize, &Sample),
+) -> Zeros {
+    let mut zeros = Zeros::default();
+    if harmonic {
+        // The fifth derivative is that of the sine alone: a cosine.
+        let mut wave = Real::ceil((w * from + phase) / PI - 0.5);
+        while (wave + 0.5) * PI < w * to + phase && zeros.push(((wave + 0.5) * PI - phase) / w) {
+            wave += 1.0;
+        }
+        zeros.iter().for_each(|x| found(0, &at(x)));
+    }
+    let derivatives: [fn(&Sample) -> f64; 4] = [|s| s.snap, |s| s.jerk, |s| s.acceleration, |s| s.velocity];
+    for (order, derivative) in derivatives.into_iter().enumerate() {
+        zeros = zeros.between(from, to, |x| derivative(&at(x)));
+        zeros.iter().for_each(|x| found(order + 1, &at(x)));
+    }
+    zeros
+}
+
 /// The zeros of a function, in ascending order.
 #[derive(Debug, Clone, Copy, Default)]
-struct Zeros {
+pub(crate) struct Zeros {
     places: [f64; MOST],
     len: usize,
 }
@@ -111,6 +131,11 @@ impl Zeros {
         self.places.iter().take(self.len).copied()
     }
 
+    /// The one with this index, in ascending order.
+    pub(crate) fn get(&self, index: usize) -> Option<f64> {
+        self.places.get(..self.len)?.get(index).copied()
+    }
+
     /// The zeros of `f` in `[from, to]`, given those of its derivative: `f` is monotone between two of them.
     fn between(&self, from: f64, to: f64, f: impl Fn(f64) -> f64) -> Self {
         let mut zeros = Self::default();
@@ -127,8 +152,9 @@ impl Zeros {
 
 /// The place between `left` and `right` where `f` changes sign, to the last bit.
 fn bisect(f: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> Option<f64> {
-    let at_left = f(left);
-    if at_left * f(right) >= 0.0 {
+    let (at_left, at_right) = (f(left), f(right));
+    // No product, which small values would make zero.
+    if !(at_left < 0.0 && at_right > 0.0 || at_left > 0.0 && at_right < 0.0) {
         return None;
     }
     // Astride zero the halves could shrink for a thousand steps; 200 leave 1e-60 of the interval.
@@ -137,7 +163,9 @@ fn bisect(f: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> Option<f64> 
         if middle <= left || middle >= right {
             break;
         }
-        if (f(middle) < 0.0) == (at_left < 0.0) {
+        let at_middle = f(middle);
+        // A zero ends on the same side whichever way the function goes.
+        if at_middle != 0.0 && (at_middle < 0.0) == (at_left < 0.0) {
             left = middle;
         } else {
             right = middle;
@@ -154,7 +182,7 @@ mod tests {
     fn turning_points_inside_a_section_are_found() {
         // p = t^4/24 - t^2/2 on [-3, 3]: extrema of every derivative are known by hand.
         let motion = Sample { acceleration: -1.0, snap: 1.0, ..Sample::default() };
-        let extrema = Extrema::of_motion(&motion, 0.0, 0.0, -3.0, 3.0);
+        let extrema = Extrema::of_motion(&motion, 0.0, 0.0, 0.0, -3.0, 3.0);
         assert!((extrema.acceleration.lower + 1.0).abs() < 1e-15);
         assert!((extrema.acceleration.upper - 3.5).abs() < 1e-14);
         // Velocity t^3/6 - t turns where t^2 = 2, at -+ (2/3) sqrt 2; its ends are -+ 1.5.
@@ -169,7 +197,11 @@ mod tests {
     fn a_sine_on_a_slope_turns_where_its_velocity_cancels() {
         // p = sin(2 x) - x on [0, 3]: v = 2 cos(2 x) - 1 is zero at x = pi/6 and 5 pi/6.
         let motion = Sample::cruising(0.0, -1.0);
-        let extrema = Extrema::of_motion(&motion, 1.0, 2.0, 0.0, 3.0);
+        let extrema = Extrema::of_motion(&motion, 1.0, 2.0, 0.0, 0.0, 3.0);
+        // Counted from elsewhere it is the same.
+        let shifted = Extrema::of_motion(&motion.advanced(0.5), 1.0, 2.0, 1.0, -0.5, 2.5);
+        assert!((extrema.position.upper - shifted.position.upper).abs() < 1e-15);
+        assert!((extrema.velocity.lower - shifted.velocity.lower).abs() < 1e-15);
         let (high, low) = (3.0_f64.sqrt() / 2.0 - PI / 6.0, -(3.0_f64.sqrt()) / 2.0 - 5.0 * PI / 6.0);
         assert!((extrema.position.upper - high).abs() < 1e-15);
         assert!((extrema.position.lower - low).abs() < 1e-15);

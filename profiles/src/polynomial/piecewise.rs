@@ -141,7 +141,12 @@ impl<const N: usize> Sectioned for Piecewise<N> {
             polynomial: piece.motion,
             amplitude: 0.0,
             angular_frequency: 0.0,
+            phase: 0.0,
         })
+    }
+
+    fn section_at(&self, t: f64) -> Option<Section> {
+        self.section(self.index(t))
     }
 
     fn before(&self) -> Sample {

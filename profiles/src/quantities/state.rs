@@ -77,7 +77,7 @@ impl<F: Real> Sample<F> {
     /// The motion `dt` seconds later if velocity keeps its value, finite also where `dt` is not.
     #[inline]
     #[must_use]
-    pub(crate) fn coasted(self, dt: F) -> Self {
+    pub fn coasted(self, dt: F) -> Self {
         let dt = dt.clamped(-F::MAX, F::MAX);
         Self::cruising((self.position + self.velocity * dt).clamped(-F::MAX, F::MAX), self.velocity)
     }

@@ -1,6 +1,8 @@
 //! Strategies and helpers shared by the property tests.
 #![allow(dead_code, reason = "every test file uses a part of it")]
 
+pub(crate) mod swing;
+
 use profiles::{
     Cosine, Interval, Limits, PlanError, Profile, SCurve, Section, Sectioned, SnapLimited, Trapezoid,
 };
