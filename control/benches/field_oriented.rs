@@ -18,7 +18,8 @@ macro_rules! bench_ticks {
             #[derive(Default)]
             struct HandWritten {
                 velocity_integral: $real,
-                integral: [$real; 2],
+                d_integral: $real,
+                q_integral: $real,
             }
             impl HandWritten {
                 #[inline]
@@ -30,12 +31,11 @@ macro_rules! bench_ticks {
                     let feedforward = 5.2e-3 * reference.acceleration;
                     let wanted = (2.3 * error + self.velocity_integral + feedforward).max(-20.0).min(20.0);
                     let w = 3.0 * input.velocity;
-                    let errors = [-input.current.d, wanted - input.current.q];
-                    for (integral, error) in self.integral.iter_mut().zip(errors) {
-                        *integral = (*integral + 0.566 * error).max(-180.0).min(180.0);
-                    }
-                    let d = 16.7 * errors[0] + self.integral[0] - w * 8.5e-3 * input.current.q;
-                    let q = 16.7 * errors[1] + self.integral[1] + w * (8.5e-3 * input.current.d + 0.175);
+                    let (d_error, q_error) = (-input.current.d, wanted - input.current.q);
+                    self.d_integral = (self.d_integral + 0.566 * d_error).max(-180.0).min(180.0);
+                    self.q_integral = (self.q_integral + 0.566 * q_error).max(-180.0).min(180.0);
+                    let d = 16.7 * d_error + self.d_integral - w * 8.5e-3 * input.current.q;
+                    let q = 16.7 * q_error + self.q_integral + w * (8.5e-3 * input.current.d + 0.175);
                     let squared = d * d + q * q;
                     if squared > 32400.0 {
                         let scale = 180.0 / squared.sqrt();

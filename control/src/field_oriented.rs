@@ -183,7 +183,7 @@ impl<F: Real> FieldOriented<F> {
     ///
     /// An input that is not finite leaves `state` untouched to the bit and returns the last valid voltage and current
     /// within their limits, held by both loops.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn update(
         &self,
@@ -219,7 +219,7 @@ impl<F: Real> FieldOriented<F> {
     ///
     /// A `rotor` that is none, `sin^2 + cos^2` not within `[1/2, 2]`, counts as an input that is not finite, as currents that
     /// are not finite do; the voltages are then those of the last valid rotor.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn update_phases(
         &self,

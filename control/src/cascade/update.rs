@@ -109,7 +109,7 @@ impl<F: Real> Cascade<F> {
     /// An input that is not finite leaves `state` untouched to the bit, at every tick, and returns the last valid current
     /// (zero before the first tick) within the limit, with [`Status::Held`]: the loops run one base tick later. Finite
     /// inputs that overflow in a loop make that loop hold its command.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn update(&self, state: &mut CascadeState<F>, input: CascadeInput<F>) -> CascadeOutput<F> {
         if input.is_finite() {
@@ -126,7 +126,7 @@ impl<F: Real> Cascade<F> {
     }
 
     /// A tick with finite input.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn step(&self, state: &mut CascadeState<F>, input: CascadeInput<F>) -> CascadeOutput<F> {
         let (position_divisor, velocity_divisor) = self.divisors();
         let mut status = state.status;

@@ -94,7 +94,7 @@ impl<F: Real> CurrentLoop<F> {
     /// An input that is not finite leaves `state` untouched to the bit and returns the last valid voltage (zero before the
     /// first tick) within the limit, with [`CurrentStatus::Held`]. Finite inputs that overflow are answered alike, except
     /// that the integral starts afresh, so that one absurd sample cannot hold the output for good.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn update(&self, state: &mut CurrentLoopState<F>, input: CurrentInput<F>) -> CurrentOutput<F> {
         let CurrentInput { reference, current, speed, realised } = input;
