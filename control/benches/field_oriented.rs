@@ -27,13 +27,13 @@ macro_rules! bench_ticks {
                     let reference = &input.reference;
                     let command = 180.0 * (reference.position - input.position) + reference.velocity;
                     let error = command - input.velocity;
-                    self.velocity_integral = (self.velocity_integral + 33e-4 * error).max(-20.0).min(20.0);
+                    self.velocity_integral = (self.velocity_integral + 33e-4 * error).clamp(-20.0, 20.0);
                     let feedforward = 5.2e-3 * reference.acceleration;
-                    let wanted = (2.3 * error + self.velocity_integral + feedforward).max(-20.0).min(20.0);
+                    let wanted = (2.3 * error + self.velocity_integral + feedforward).clamp(-20.0, 20.0);
                     let w = 3.0 * input.velocity;
                     let (d_error, q_error) = (-input.current.d, wanted - input.current.q);
-                    self.d_integral = (self.d_integral + 0.566 * d_error).max(-180.0).min(180.0);
-                    self.q_integral = (self.q_integral + 0.566 * q_error).max(-180.0).min(180.0);
+                    self.d_integral = (self.d_integral + 0.566 * d_error).clamp(-180.0, 180.0);
+                    self.q_integral = (self.q_integral + 0.566 * q_error).clamp(-180.0, 180.0);
                     let d = 16.7 * d_error + self.d_integral - w * 8.5e-3 * input.current.q;
                     let q = 16.7 * q_error + self.q_integral + w * (8.5e-3 * input.current.d + 0.175);
                     let squared = d * d + q * q;
