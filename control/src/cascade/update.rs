@@ -129,7 +129,7 @@ impl<F: Real> Cascade<F> {
     #[inline(always)]
     pub(crate) fn step(&self, state: &mut CascadeState<F>, input: CascadeInput<F>) -> CascadeOutput<F> {
         let (position_divisor, velocity_divisor) = self.divisors();
-        let mut status = state.status;
+        let mut position_held = false;
         if is_due(&mut state.position_wait, position_divisor) {
             let error = input.reference.position - input.position;
             let command = self.commanded_velocity(error, input.reference.velocity);
@@ -138,7 +138,7 @@ impl<F: Real> Cascade<F> {
                 state.reference_velocity = input.reference.velocity;
                 state.velocity_command = command;
             } else {
-                status = Status::Held;
+                position_held = true;
             }
         }
         if is_due(&mut state.velocity_wait, velocity_divisor) {
@@ -149,10 +149,8 @@ impl<F: Real> Cascade<F> {
                 realised: input.realised,
             };
             state.status = self.velocity_loop.update(&mut state.velocity_loop, loop_input).status;
-            if status != Status::Held {
-                status = state.status;
-            }
         }
+        let status = if position_held { Status::Held } else { state.status };
         CascadeOutput { current: self.held_current(state), status }
     }
 
