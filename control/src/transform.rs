@@ -41,7 +41,7 @@ pub struct Dq<F = f64> {
 /// ```
 /// use control::{Dq, Phases, Rotation};
 ///
-/// let rotor = Rotation::by(0.7); // rad, electrical
+/// let rotor = Rotation::<f64>::by(0.7); // rad, electrical
 /// let current = Phases { a: 1.0, b: -3.0, c: 2.0 }.to_dq(rotor); // A
 /// let back = current.to_phases(rotor);
 /// assert!((back.a - 1.0).abs() + (back.b + 3.0).abs() + (back.c - 2.0).abs() < 1e-14);

@@ -1,6 +1,5 @@
 //! The current loop on a winding that is stepped exactly.
 #![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
-#![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
 use control::{
     CurrentInput, CurrentLoop, CurrentLoopError, CurrentLoopState, CurrentStatus, Dq, PiGains, Windings,

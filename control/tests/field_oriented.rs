@@ -1,6 +1,5 @@
 //! Field-oriented control: its parts, its phases, and a motor.
 #![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
-#![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
 
 use control::{
     AntiWindup, Cascade, CascadeInput, CascadeState, CurrentInput, CurrentLoop, CurrentLoopState,

@@ -141,17 +141,21 @@ impl<F: Real> Cascade<F> {
                 position_held = true;
             }
         }
-        if is_due(&mut state.velocity_wait, velocity_divisor) {
+        let current = if is_due(&mut state.velocity_wait, velocity_divisor) {
             let loop_input = PidInput {
                 setpoint: state.velocity_command,
                 measurement: input.velocity,
                 feedforward: self.feedforward().force(&input.reference) + input.feedforward,
                 realised: input.realised,
             };
-            state.status = self.velocity_loop.update(&mut state.velocity_loop, loop_input).status;
-        }
+            let answer = self.velocity_loop.update(&mut state.velocity_loop, loop_input);
+            state.status = answer.status;
+            answer.output
+        } else {
+            self.held_current(state)
+        };
         let status = if position_held { Status::Held } else { state.status };
-        CascadeOutput { current: self.held_current(state), status }
+        CascadeOutput { current, status }
     }
 
     /// Prepares `state`, so far driven by `old`, for this configuration, between two ticks.

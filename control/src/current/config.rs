@@ -58,9 +58,9 @@ pub struct Windings<F = f64> {
 /// ```
 /// use control::{CurrentLoop, Windings};
 ///
-/// let windings = Windings { resistance: 2.875, d_inductance: 8.5e-3, q_inductance: 8.5e-3, flux: 0.175 };
+/// let windings = Windings::<f64> { resistance: 2.875, d_inductance: 8.5e-3, q_inductance: 8.5e-3, flux: 0.175 };
 /// let current_loop = CurrentLoop::tuned(windings, 1500.0, 1e-4)?.with_voltage_limit(180.0)?;
-/// assert_eq!(current_loop.q_gains().kp, 12.75); // 8.5 mH times 1500 rad/s
+/// assert!((current_loop.q_gains().kp - 12.75).abs() < 1e-14); // 8.5 mH times 1500 rad/s
 /// # Ok::<(), control::CurrentLoopError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
