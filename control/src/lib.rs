@@ -1,13 +1,24 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
+mod cascade;
+mod current;
 mod error;
 mod feedforward;
+mod field_oriented;
+mod finite;
 mod pid;
+mod transform;
 
-pub use error::{FeedforwardError, PidError};
+pub use cascade::{Cascade, CascadeInput, CascadeOutput, CascadeState};
+pub use current::{
+    CurrentInput, CurrentLoop, CurrentLoopState, CurrentOutput, CurrentStatus, PiGains, Windings,
+};
+pub use error::{CascadeError, CurrentLoopError, FeedforwardError, FieldOrientedError, PidError};
 pub use feedforward::Feedforward;
+pub use field_oriented::{FieldOriented, FieldOrientedInput, FieldOrientedOutput, FieldOrientedState};
 pub use pid::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidOutput, PidState, Status};
+pub use transform::{AlphaBeta, Dq, Phases, Rotation};
 
 #[cfg(test)]
 extern crate std;

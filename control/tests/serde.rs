@@ -1,7 +1,10 @@
 //! Configurations are checked when they are read.
 #![cfg(feature = "serde")]
 
-use control::{AntiWindup, DerivativeOn, Feedforward, Pid, PidGains};
+use control::{
+    AntiWindup, Cascade, CurrentLoop, DerivativeOn, Feedforward, FieldOriented, PiGains, Pid, PidGains,
+    Windings,
+};
 
 #[test]
 fn a_configuration_comes_back_as_it_was() {
@@ -48,4 +51,35 @@ fn a_feedforward_is_checked() {
     let mass = serde_json::from_str::<Feedforward>(r#"{"acceleration": 2}"#).expect("reads");
     assert_eq!(mass, Feedforward::rigid(2.0, 0.0).expect("valid"));
     assert!(serde_json::from_str::<Feedforward<f32>>(r#"{"acceleration": 1e39}"#).is_err(), "beyond f32");
+}
+
+#[test]
+fn a_servo_comes_back_as_it_was_and_is_checked() {
+    let windings = Windings { resistance: 2.0, d_inductance: 8e-3, q_inductance: 9e-3, flux: 0.2 };
+    let unlimited = CurrentLoop::tuned(windings, 1000.0, 1e-4).expect("valid");
+    let plain = Cascade::new(100.0, PiGains { kp: 2.0, ki: 30.0 }, 1e-4).expect("valid");
+    let full = plain
+        .with_divisors(10, 2)
+        .and_then(|c| c.with_velocity_feedforward(0.5))
+        .and_then(|c| c.with_velocity_limit(300.0))
+        .and_then(|c| c.with_current_limit(20.0))
+        .and_then(|c| c.with_anti_windup(AntiWindup::None))
+        .expect("valid")
+        .with_feedforward(Feedforward::rigid(0.5, 0.25).expect("valid"));
+    let limited = unlimited.with_voltage_limit(180.0).expect("valid");
+    for (cascade, current_loop) in [(plain, unlimited), (full, limited)] {
+        let servo = FieldOriented::new(cascade, current_loop, 3).expect("valid");
+        let text = serde_json::to_string(&servo).expect("writes");
+        assert_eq!(serde_json::from_str::<FieldOriented>(&text).expect(&text), servo);
+        for (right, wrong, reason) in [
+            (r#""pole_pairs":3"#, r#""pole_pairs":0"#, "pole pair"),
+            (r#""position_gain":100.0"#, r#""position_gain":-1.0"#, "position gain"),
+            (r#""kp":8.0"#, r#""kp":0.0"#, "proportional gain of the d axis"),
+            (r#""period":0.0001,"d_ind"#, r#""period":0.0002,"d_ind"#, "base tick"),
+        ] {
+            assert!(text.contains(right), "{text}");
+            let error = serde_json::from_str::<FieldOriented>(&text.replace(right, wrong)).expect_err(wrong);
+            assert!(error.to_string().contains(reason), "{error}");
+        }
+    }
 }

@@ -66,6 +66,16 @@ impl<F: Real> PidState<F> {
         self.integral
     }
 
+    /// Adds to the integral, unless the sum overflows; whether it did.
+    pub(crate) fn shift_integral(&mut self, shift: F) -> bool {
+        let integral = self.integral + shift;
+        let fits = integral.is_finite();
+        if fits {
+            self.integral = integral;
+        }
+        fits
+    }
+
     /// The filtered derivative of the error (or minus that of the measurement), without its gain.
     #[must_use]
     pub fn derivative(&self) -> F {

@@ -47,9 +47,10 @@ pub struct PidOutput<F = f64> {
 }
 
 /// How an output came about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Status {
     /// The control law, within the limits.
+    #[default]
     Regular,
     /// The control law asked for less than the lower limit.
     AtLower,
@@ -151,7 +152,7 @@ impl<F: Real> Pid<F> {
 
     /// A finite `output` brought into the limits.
     #[inline]
-    pub(super) fn limited(&self, output: F) -> F {
+    pub(crate) fn limited(&self, output: F) -> F {
         lesser(greater(output, self.lower), self.upper)
     }
 

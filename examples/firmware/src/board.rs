@@ -3,6 +3,8 @@
 use core::panic::PanicInfo;
 use core::ptr::{read_volatile, write_volatile};
 
+use control::{Phases, Rotation};
+
 /// A block of memory-mapped registers shared with a host and a drive.
 pub struct Registers {
     base: *mut u32,
@@ -21,6 +23,10 @@ impl Registers {
         unsafe { write_volatile(self.base.add(offset), value) }
     }
 
+    fn single(&self, offset: usize) -> f32 {
+        f32::from_bits(self.read(offset))
+    }
+
     fn double(&self, offset: usize) -> f64 {
         f64::from_bits(u64::from(self.read(offset)) | (u64::from(self.read(offset + 1)) << 32))
     }
@@ -37,7 +43,7 @@ impl Registers {
 
     /// Measured position, m.
     pub fn position(&self) -> f32 {
-        f32::from_bits(self.read(11))
+        self.single(11)
     }
 
     #[cfg(feature = "provoke-a-panic")]
@@ -48,6 +54,39 @@ impl Registers {
     /// Commanded force, N.
     pub fn set_force(&mut self, force: f32) {
         self.write(12, force.to_bits());
+    }
+
+    /// Angle of the motor, rad, and its speed, rad/s.
+    pub fn motor(&self) -> (f32, f32) {
+        (self.single(15), self.single(16))
+    }
+
+    /// Currents of the phases, A: two are measured.
+    pub fn currents(&self) -> Phases<f32> {
+        let (a, b) = (self.single(17), self.single(18));
+        Phases { a, b, c: -a - b }
+    }
+
+    /// The rotor as the resolver sees it.
+    pub fn rotor(&self) -> Rotation<f32> {
+        Rotation::from_sin_cos(self.single(19), self.single(20))
+    }
+
+    /// Commanded voltages of the phases, V.
+    pub fn set_voltages(&mut self, voltages: Phases<f32>) {
+        self.write(21, voltages.a.to_bits());
+        self.write(22, voltages.b.to_bits());
+        self.write(23, voltages.c.to_bits());
+    }
+
+    /// The mode of the load, Hz and damping ratio, and the delay of the filter for it, s.
+    pub fn mode(&self) -> (f64, f64, f64) {
+        (self.double(24), self.double(26), self.double(28))
+    }
+
+    /// Whether the profile is shaped ahead of the move instead of tick by tick.
+    pub fn shapes_ahead(&self) -> bool {
+        self.read(30) != 0
     }
 
     /// Tells the host that its request could not be served.

@@ -1,4 +1,4 @@
-//! A servo axis on a bare microcontroller: plan a move when asked, follow it at every tick.
+//! Two axes on a bare microcontroller: plan a move when asked, follow it at every tick.
 //!
 //! There is no allocator. The panic handler calls a function that does not exist, so that the program links only if
 //! no panic can be reached: an index that might be out of bounds anywhere below is a link error.
@@ -7,15 +7,17 @@
 #![no_main]
 
 mod board;
+mod servo;
 
 use board::Registers;
 use control::{AntiWindup, Feedforward, Pid, PidError, PidGains, PidInput, PidState};
 use profiles::{Cosine, Cursor, Limits, Profile, Real, SCurve, Sample, Sectioned, SnapLimited, Trapezoid};
+use servo::Servo;
 
 /// Control period, s.
 const PERIOD: f64 = 4e-4;
 
-/// One axis: its controller and the controller's memory.
+/// A linear axis driven by a force: its controller and the controller's memory.
 struct Axis {
     pid: Pid<f32>,
     feedforward: Feedforward<f32>,
@@ -53,7 +55,7 @@ impl Axis {
 }
 
 /// Plans and follows one move with the law the host asks for.
-fn serve(axis: &mut Axis, registers: &mut Registers) {
+fn serve(axis: &mut Axis, servo: &mut Servo, registers: &mut Registers) {
     let [distance, velocity, acceleration, jerk, snap] = registers.request();
     let Ok(limits) = Limits::new(velocity, acceleration, jerk).and_then(|l| l.with_snap(snap)) else {
         return registers.report_fault();
@@ -61,6 +63,12 @@ fn serve(axis: &mut Axis, registers: &mut Registers) {
     let law = registers.law();
     #[cfg(feature = "provoke-a-panic")]
     let law = law + registers.choice();
+    if law == 4 {
+        if servo.turn(distance, &limits, registers).is_none() {
+            registers.report_fault();
+        }
+        return;
+    }
     let planned = match law {
         0 => Trapezoid::rest_to_rest(distance, &limits).map(|p| axis.follow(p, registers)),
         1 => SCurve::rest_to_rest(distance, &limits)
@@ -76,9 +84,10 @@ fn serve(axis: &mut Axis, registers: &mut Registers) {
 }
 
 /// The program.
-fn run(registers: &mut Registers) -> Result<(), PidError> {
-    let mut axis = Axis::new()?;
+fn run(registers: &mut Registers) -> Option<()> {
+    let mut axis = Axis::new().ok()?;
+    let mut servo = Servo::new()?;
     loop {
-        serve(&mut axis, registers);
+        serve(&mut axis, &mut servo, registers);
     }
 }
