@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 use profiles::Real;
 
-use super::Stepper;
 use super::stepper::check;
+use super::{MeteredRk4, Stepper};
 use crate::error::StepError;
 use crate::models::Plant;
 
@@ -63,6 +63,12 @@ impl<P> Rk4<P> {
     #[must_use]
     pub fn plant(&self) -> &P {
         &self.plant
+    }
+
+    /// The same steps with an account of the energy.
+    #[must_use]
+    pub fn metered(self) -> MeteredRk4<P> {
+        MeteredRk4::new(self)
     }
 
     /// The number of substeps of an interval in s.
