@@ -19,7 +19,7 @@ pub use linear::{
 pub use models::{
     DiscreteStateSpace, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive, PmsmWindings, StateSpace, TwoInertia,
 };
-pub use signals::{Disturbance, Encoder, GaussianNoise, Noise, UniformNoise};
+pub use signals::{DelayedHold, Disturbance, Encoder, GaussianNoise, Noise, TransportDelay, UniformNoise};
 pub use simulation::{Channel, Clock, ControlTick, Outcome, Probe, Recording, Saturation, Simulation, Task};
 pub use steppers::{
     DormandPrince, HeldLinear, MeteredHold, MeteredRk4, Rk4, Stepper, Tolerance, ZeroOrderHold, integrate,

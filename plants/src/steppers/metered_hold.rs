@@ -23,7 +23,7 @@ use crate::linear::{QuadraticIntegral, Transition};
 ///     state = motor.advance(&state, &vector![if k < 50 { 40.0 } else { -30.0 }], 1e-3)?;
 /// }
 /// assert!(motor.ledger().dissipated > 0.1); // J
-/// assert!(motor.ledger().relative_imbalance() < 1e-14);
+/// assert!(motor.ledger().relative_imbalance() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
