@@ -25,20 +25,30 @@ impl<T> Kept<T> {
     ) -> Result<&T, ModelError> {
         let bits = interval.to_bits();
         let place = match self.entries.iter().position(|(kept, _)| kept.to_bits() == bits) {
-            Some(place) => place,
+            Some(0) => 0,
+            // One place forward at each use keeps the frequent ones in front without moving all of them.
+            Some(place) => self.forward(place),
             None => {
                 let value = make()?;
-                if self.entries.len() == KEPT {
-                    self.entries.pop();
-                }
-                self.entries.push((interval, value));
-                self.entries.len() - 1
+                self.insert(interval, value)
             }
         };
-        // One place forward at each use keeps the frequent ones in front without moving all of them.
-        let ahead = place.saturating_sub(1);
-        self.entries.swap(place, ahead);
-        Ok(&self.entries[ahead].1)
+        Ok(&self.entries[place].1)
+    }
+
+    fn forward(&mut self, place: usize) -> usize {
+        self.entries.swap(place, place - 1);
+        place - 1
+    }
+
+    #[cold]
+    fn insert(&mut self, interval: f64, value: T) -> usize {
+        if self.entries.len() == KEPT {
+            self.entries.pop();
+        }
+        self.entries.push((interval, value));
+        let last = self.entries.len() - 1;
+        if last > 0 { self.forward(last) } else { 0 }
     }
 }
 

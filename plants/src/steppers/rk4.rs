@@ -75,13 +75,14 @@ impl<P> Rk4<P> {
     ///
     /// # Errors
     /// More than a million, or a fixed number with which the method is unstable.
+    #[inline]
     pub fn substeps(&self, interval: f64) -> Result<u32, StepError> {
         let product = self.spectral_radius * interval;
         match self.substeps {
             Substeps::Fixed(substeps) => {
-                let step = interval / f64::from(substeps);
-                let product = product / f64::from(substeps);
-                if product > STABLE {
+                if product > STABLE * f64::from(substeps) {
+                    let step = interval / f64::from(substeps);
+                    let product = product / f64::from(substeps);
                     return Err(StepError::Unstable { step, product, limit: STABLE });
                 }
                 Ok(substeps)
@@ -107,9 +108,11 @@ impl<const N: usize, const M: usize, P: Plant<N, M>> Stepper<N, M> for Rk4<P> {
     ) -> Result<SVector<f64, N>, StepError> {
         check(interval)?;
         let substeps = self.substeps(interval)?;
-        let step = interval / f64::from(substeps);
         let mut derivative = |_: f64, x: &SVector<f64, N>| self.plant.derivative(x, input);
-        Ok((0..substeps).fold(*state, |x, _| rk4_step(&mut derivative, 0.0, &x, step)))
+        // A single step needs neither a division nor a loop.
+        let step = if substeps == 1 { interval } else { interval / f64::from(substeps) };
+        let first = rk4_step(&mut derivative, 0.0, state, step);
+        Ok((1..substeps).fold(first, |x, _| rk4_step(&mut derivative, 0.0, &x, step)))
     }
 }
 
