@@ -66,8 +66,8 @@ impl<const N: usize, const M: usize, P: Energetic<N, M>> Stepper<N, M> for Meter
     ) -> Result<SVector<f64, N>, StepError> {
         check(interval)?;
         let plant = self.stepper.plant();
-        let substeps = self.stepper.substeps(interval)?;
-        let step = interval / f64::from(substeps);
+        let substeps = self.stepper.count(interval)?;
+        let step = if substeps == 1 { interval } else { interval / f64::from(substeps) };
         let mut flow = EnergyLedger::default();
         let next = (0..substeps).fold(*state, |x, _| {
             let mut stages = [Powers::default(); 4];

@@ -73,10 +73,11 @@ impl PmsmDrive {
 impl Plant<6, 3> for PmsmDrive {
     #[inline]
     fn derivative(&self, state: &SVector<f64, 6>, input: &SVector<f64, 3>) -> SVector<f64, 6> {
-        let (v_d, v_q) = self.windings.voltages(input[0], input[1]);
-        let (i_d, i_q, torque) = self.windings.currents(state[0], state[1], state[3], v_d, v_q);
-        let motion = self.mechanics.derivative(&self.mechanical_state(state), &vector![torque, input[2]]);
-        vector![i_d, i_q, motion[0], motion[1], motion[2], motion[3]]
+        let (along, across) = self.windings.currents(state[0], state[1], state[3], input[0], input[1]);
+        let friction = self.mechanics.motor_damping() * state[3];
+        let driving = self.windings.torque_less(state[0], state[1], friction);
+        let motion = self.mechanics.motion(&self.mechanical_state(state), driving, input[2]);
+        vector![along, across, motion[0], motion[1], motion[2], motion[3]]
     }
 }
 

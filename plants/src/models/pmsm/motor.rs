@@ -141,9 +141,9 @@ impl Pmsm {
 impl Plant<4, 3> for Pmsm {
     #[inline]
     fn derivative(&self, state: &SVector<f64, 4>, input: &SVector<f64, 3>) -> SVector<f64, 4> {
-        let (v_d, v_q) = self.windings.voltages(input[0], input[1]);
-        let (i_d, i_q, torque) = self.windings.currents(state[0], state[1], state[3], v_d, v_q);
-        vector![i_d, i_q, state[3], (torque - self.friction * state[3] - input[2]) * self.per_inertia]
+        let (along, across) = self.windings.currents(state[0], state[1], state[3], input[0], input[1]);
+        let driving = self.windings.torque_less(state[0], state[1], self.friction * state[3]);
+        vector![along, across, state[3], (driving - input[2]) * self.per_inertia]
     }
 }
 

@@ -38,12 +38,16 @@ pub struct PmsmWindings {
     flux_linkage: f64,
     pole_pairs: u32,
     voltage_limit: f64,
-    // What the derivative needs: products only.
-    pairs: f64,
-    per_inductance_d: f64,
-    per_inductance_q: f64,
     torque_constant: f64,
     reluctance_constant: f64,
+    // What the derivative needs, so that it has neither divisions nor more products than it must.
+    per_inductance_d: f64,
+    per_inductance_q: f64,
+    rate_d: f64,
+    rate_q: f64,
+    coupling_d: f64,
+    coupling_q: f64,
+    back_emf_q: f64,
 }
 
 // No limit is written as none: formats like JSON have no infinity.
@@ -117,19 +121,23 @@ impl PmsmWindings {
             flux_linkage,
             pole_pairs,
             voltage_limit: f64::INFINITY,
-            pairs,
-            per_inductance_d: 1.0 / inductance_d,
-            per_inductance_q: 1.0 / inductance_q,
             torque_constant: 1.5 * pairs * flux_linkage,
             reluctance_constant: 1.5 * pairs * (inductance_d - inductance_q),
+            per_inductance_d: 1.0 / inductance_d,
+            per_inductance_q: 1.0 / inductance_q,
+            rate_d: resistance / inductance_d,
+            rate_q: resistance / inductance_q,
+            coupling_d: pairs * (inductance_q / inductance_d),
+            coupling_q: pairs * (inductance_d / inductance_q),
+            back_emf_q: pairs * (flux_linkage / inductance_q),
         };
-        let fastest = resistance * (windings.per_inductance_d + windings.per_inductance_q);
-        not_negative("the resistance over the inductances in 1/s", fastest)?;
+        not_negative("the resistance over the d inductance in 1/s", windings.rate_d)?;
+        not_negative("the resistance over the q inductance in 1/s", windings.rate_q)?;
+        not_negative("the pole pairs times q over d inductance", windings.coupling_d)?;
+        not_negative("the pole pairs times d over q inductance", windings.coupling_q)?;
+        not_negative("the pole pairs times flux linkage over q inductance in A", windings.back_emf_q)?;
         not_negative("the torque constant in N m/A", windings.torque_constant)?;
-        not_negative(
-            "the back-EMF over the inductance in A/rad",
-            pairs * flux_linkage * windings.per_inductance_q,
-        )?;
+        not_negative("the reluctance torque in N m/A^2", windings.reluctance_constant.abs())?;
         Ok(windings)
     }
 
@@ -203,13 +211,19 @@ impl PmsmWindings {
     #[inline]
     #[must_use]
     pub fn torque(&self, i_d: f64, i_q: f64) -> f64 {
-        (self.torque_constant + self.reluctance_constant * i_d) * i_q
+        self.torque_less(i_d, i_q, 0.0)
+    }
+
+    /// The torque less `friction` in N m, in the order that has the shortest way through the processor.
+    #[inline]
+    pub(super) fn torque_less(&self, i_d: f64, i_q: f64, friction: f64) -> f64 {
+        (self.torque_constant * i_q - friction) + self.reluctance_constant * (i_d * i_q)
     }
 
     /// The voltage that the magnets induce at a rotor speed in rad/s, V: `p w psi`, along the q axis.
     #[must_use]
     pub fn back_emf(&self, speed: f64) -> f64 {
-        self.pairs * speed * self.flux_linkage
+        f64::from(self.pole_pairs) * speed * self.flux_linkage
     }
 
     /// What the inverter makes of a command `[v_d, v_q, ...]` in V; what follows the voltages passes.
@@ -240,13 +254,15 @@ impl PmsmWindings {
         (realised[0], realised[1])
     }
 
-    /// The derivatives of the currents in A/s under realised voltages, and the torque in N m.
+    /// The derivatives of the currents in A/s under a command in V.
     #[inline]
-    pub(super) fn currents(&self, i_d: f64, i_q: f64, speed: f64, v_d: f64, v_q: f64) -> (f64, f64, f64) {
-        let electric = self.pairs * speed;
-        let along = v_d - self.resistance * i_d + electric * (self.inductance_q * i_q);
-        let across = v_q - self.resistance * i_q - electric * (self.inductance_d * i_d + self.flux_linkage);
-        (along * self.per_inductance_d, across * self.per_inductance_q, self.torque(i_d, i_q))
+    pub(super) fn currents(&self, i_d: f64, i_q: f64, speed: f64, v_d: f64, v_q: f64) -> (f64, f64) {
+        let (v_d, v_q) = self.voltages(v_d, v_q);
+        let along = v_d * self.per_inductance_d - self.rate_d * i_d + self.coupling_d * (speed * i_q);
+        let across = v_q * self.per_inductance_q
+            - self.rate_q * i_q
+            - speed * (self.coupling_q * i_d + self.back_emf_q);
+        (along, across)
     }
 
     /// Energy of the currents, J: `0.75 (L_d i_d^2 + L_q i_q^2)`.

@@ -191,6 +191,23 @@ impl TwoInertia {
         )
     }
 
+    /// The derivative of a state under the torque on the motor less that of its damping, and the load torque, N m.
+    #[inline]
+    pub(in crate::models) fn motion(
+        &self,
+        state: &SVector<f64, 4>,
+        driving: f64,
+        load: f64,
+    ) -> SVector<f64, 4> {
+        let spring = self.spring_torque(state);
+        vector![
+            state[1],
+            (driving - spring) * self.per_motor_inertia,
+            state[3],
+            (spring - (load + self.load_damping * state[3])) * self.per_load_inertia
+        ]
+    }
+
     /// The square of the resonance, 1/s^2.
     fn squared_resonance(&self) -> f64 {
         self.stiffness * self.per_motor_inertia + self.stiffness * self.per_load_inertia
@@ -206,13 +223,7 @@ impl TwoInertia {
 impl Plant<4, 2> for TwoInertia {
     #[inline]
     fn derivative(&self, state: &SVector<f64, 4>, input: &SVector<f64, 2>) -> SVector<f64, 4> {
-        let spring = self.spring_torque(state);
-        vector![
-            state[1],
-            (input[0] - spring - self.motor_damping * state[1]) * self.per_motor_inertia,
-            state[3],
-            (spring - input[1] - self.load_damping * state[3]) * self.per_load_inertia
-        ]
+        self.motion(state, input[0] - self.motor_damping * state[1], input[1])
     }
 }
 
