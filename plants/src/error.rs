@@ -1,5 +1,6 @@
 //! What can be wrong with a model, a step or a run, with the number that is wrong.
 
+use profiles::ModeError;
 use thiserror::Error;
 
 /// A model that cannot be, or a question it has no answer to.
@@ -48,6 +49,17 @@ pub enum ModelError {
         /// Number of rows.
         size: usize,
     },
+    /// A point at which a transfer function has no finite value.
+    #[error("the transfer function has no finite value at {re} + {im} i rad/s")]
+    Pole {
+        /// Real part of the point, rad/s.
+        re: f64,
+        /// Imaginary part of the point, rad/s.
+        im: f64,
+    },
+    /// A motion that is no vibration.
+    #[error(transparent)]
+    Mode(#[from] ModeError),
 }
 
 /// A step that cannot be made.

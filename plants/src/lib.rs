@@ -10,12 +10,18 @@ mod steppers;
 
 pub use nalgebra;
 
-pub use energy::EnergyLedger;
+pub use energy::{Energetic, EnergyLedger, HeldEnergetic, Powers, Work};
 pub use error::{HaltError, ModelError, RecordingError, SimulationError, StepError};
-pub use linear::{Transition, eigenvalues, linearise, monodromy, spectral_radius, zero_order_hold};
-pub use models::{DiscreteStateSpace, LinearMotor, Plant, StateSpace};
-pub use signals::{Disturbance, Encoder, GaussianNoise, Noise, UniformNoise};
+pub use linear::{
+    QuadraticIntegral, Transition, eigenvalues, linearise, monodromy, quadratic_integral, spectral_radius,
+    zero_order_hold,
+};
+pub use models::{
+    DiscreteStateSpace, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive, PmsmWindings, StateSpace, TwoInertia,
+};
+pub use signals::{DelayedHold, Disturbance, Encoder, GaussianNoise, Noise, TransportDelay, UniformNoise};
 pub use simulation::{Channel, Clock, ControlTick, Outcome, Probe, Recording, Saturation, Simulation, Task};
 pub use steppers::{
-    DormandPrince, HeldLinear, Rk4, Stepper, Tolerance, ZeroOrderHold, integrate, integrate_adaptive,
+    DormandPrince, HeldLinear, MeteredHold, MeteredRk4, Rk4, Stepper, Tolerance, ZeroOrderHold, integrate,
+    integrate_adaptive,
 };

@@ -1,7 +1,7 @@
 //! Configurations survive being written, and are checked when read.
 #![cfg(feature = "serde")]
 
-use plants::{Clock, Encoder, LinearMotor};
+use plants::{Clock, Encoder, LinearMotor, LowPass, Pmsm, PmsmDrive, PmsmWindings, TwoInertia};
 
 #[test]
 fn round_trips() {
@@ -20,7 +20,30 @@ fn round_trips() {
 }
 
 #[test]
+fn drives_round_trip() {
+    let windings = PmsmWindings::new(2.875, 8.5e-3, 11e-3, 0.175, 3).expect("valid");
+    for windings in [windings, windings.with_voltage_limit(300.0).expect("valid")] {
+        let motor = Pmsm::new(windings, 0.003).and_then(|m| m.with_friction(0.008)).expect("valid");
+        let text = serde_json::to_string(&motor).expect("writes");
+        assert_eq!(serde_json::from_str::<Pmsm>(&text).expect("reads"), motor);
+        let drive = motor.coupled_with_damping(5e-4, 100.0, 0.006, 0.001).expect("valid");
+        let text = serde_json::to_string(&drive).expect("writes");
+        assert_eq!(serde_json::from_str::<PmsmDrive>(&text).expect("reads"), drive);
+    }
+    let filter = LowPass::new(0.0044).expect("valid");
+    let text = serde_json::to_string(&filter).expect("writes");
+    assert_eq!(serde_json::from_str::<LowPass>(&text).expect("reads"), filter);
+}
+
+#[test]
 fn bad_numbers_are_refused() {
+    assert!(serde_json::from_str::<LowPass>(r#"{"time_constant":0.0}"#).is_err());
+    let axis = r#"{"motor_inertia":1.0,"load_inertia":1.0,"stiffness":1.0,
+        "motor_damping":0.0,"spring_damping":-1.0,"load_damping":0.0}"#;
+    assert!(serde_json::from_str::<TwoInertia>(axis).is_err());
+    let windings = r#"{"resistance":1.0,"inductance_d":0.0,"inductance_q":1.0,"flux_linkage":1.0,
+        "pole_pairs":1,"voltage_limit":null}"#;
+    assert!(serde_json::from_str::<PmsmWindings>(windings).is_err());
     assert!(serde_json::from_str::<Clock>(r#"{"numerator":1,"denominator":0}"#).is_err());
     assert!(serde_json::from_str::<Encoder>(r#"{"resolution":-1.0}"#).is_err());
     let motor = r#"{"mass":0.0,"damping":0.0,"force_constant":null,"force_limit":null}"#;

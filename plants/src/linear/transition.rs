@@ -47,20 +47,9 @@ pub fn zero_order_hold<const N: usize, const M: usize>(
     b: &SMatrix<f64, N, M>,
     interval: f64,
 ) -> Result<Transition<N, M>, ModelError> {
-    if !(interval >= 0.0 && interval.is_finite()) {
-        return Err(ModelError::Parameter {
-            parameter: "the interval in s",
-            range: "finite and not negative",
-            value: interval,
-        });
-    }
-    let scaled_a = a * interval;
-    let norm = scaled_a.one_norm();
-    if !scaled_a.iter().all(|x| x.is_finite()) || norm > LARGEST_NORM {
-        return Err(ModelError::TooStiff { interval, norm });
-    }
+    let norm = check_interval(a, interval)?;
     let transition = if norm > 0.0 {
-        exponential(&DMatrix::from_fn(N, N, |i, j| scaled_a[(i, j)]), &(b * interval))
+        exponential(&DMatrix::from_fn(N, N, |i, j| a[(i, j)] * interval), &(b * interval))
     } else {
         Transition { state: SMatrix::identity(), input: b * interval }
     };
@@ -93,8 +82,28 @@ fn exponential<const N: usize, const M: usize>(a: &DMatrix<f64>, b: &SMatrix<f64
     }
 }
 
+/// The 1-norm of `A T`, of an interval over which the exponential can be computed.
+pub(super) fn check_interval<const N: usize>(
+    a: &SMatrix<f64, N, N>,
+    interval: f64,
+) -> Result<f64, ModelError> {
+    if !(interval >= 0.0 && interval.is_finite()) {
+        return Err(ModelError::Parameter {
+            parameter: "the interval in s",
+            range: "finite and not negative",
+            value: interval,
+        });
+    }
+    let scaled_a = a * interval;
+    let norm = scaled_a.one_norm();
+    if !scaled_a.iter().all(|x| x.is_finite()) || norm > LARGEST_NORM {
+        return Err(ModelError::TooStiff { interval, norm });
+    }
+    Ok(norm)
+}
+
 /// The smallest power of two above `ratio`, at least one.
-fn power_of_two_above(ratio: f64) -> f64 {
+pub(super) fn power_of_two_above(ratio: f64) -> f64 {
     const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
     if ratio < 1.0 { 1.0 } else { f64::from_bits(((ratio.to_bits() >> MANTISSA) + 1) << MANTISSA) }
 }

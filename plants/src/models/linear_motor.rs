@@ -3,9 +3,12 @@
 use nalgebra::{SVector, matrix, vector};
 use profiles::Real;
 
+use super::check::{not_negative, positive};
+use super::decay::decay_functions;
 use super::{Plant, StateSpace};
+use crate::energy::{Energetic, HeldEnergetic, Powers, Work};
 use crate::error::ModelError;
-use crate::linear::Transition;
+use crate::linear::{QuadraticIntegral, Transition, quadratic_integral};
 use crate::simulation::Saturation;
 use crate::steppers::HeldLinear;
 
@@ -79,13 +82,7 @@ impl LinearMotor {
     /// A mass that is not positive and finite, or a damping that is negative or not finite.
     pub fn new(mass: f64, damping: f64) -> Result<Self, ModelError> {
         positive("the mass in kg", mass)?;
-        if !(damping >= 0.0 && damping.is_finite()) {
-            return Err(ModelError::Parameter {
-                parameter: "the damping in N s/m",
-                range: "finite and not negative",
-                value: damping,
-            });
-        }
+        not_negative("the damping in N s/m", damping)?;
         Ok(Self { mass, damping, force_constant: None, force_limit: f64::INFINITY })
     }
 
@@ -176,13 +173,7 @@ impl Plant<2, 1> for LinearMotor {
 /// The force limit is not in the transition but in the realised input.
 impl HeldLinear<2, 1> for LinearMotor {
     fn transition(&self, interval: f64) -> Result<Transition<2, 1>, ModelError> {
-        if !(interval >= 0.0 && interval.is_finite()) {
-            return Err(ModelError::Parameter {
-                parameter: "the interval in s",
-                range: "finite and not negative",
-                value: interval,
-            });
-        }
+        not_negative("the interval in s", interval)?;
         let (decay, p1, p2) = decay_functions(self.damping / self.mass * interval);
         let acceleration = self.gain() / self.mass;
         let transition = Transition {
@@ -201,24 +192,29 @@ impl HeldLinear<2, 1> for LinearMotor {
     }
 }
 
-/// `e^-z`, `(1 - e^-z) / z` and `(z - 1 + e^-z) / z^2` for `z >= 0`, to rounding also where `z` is small.
-fn decay_functions(z: f64) -> (f64, f64, f64) {
-    if z > 1.0 {
-        let decay = Real::exp(-z);
-        let p1 = (1.0 - decay) / z;
-        return (decay, p1, (1.0 - p1) / z);
+/// Input: force times speed. Heat: `c v^2`. The way to the load is the carriage itself.
+impl Energetic<2, 1> for LinearMotor {
+    fn stored(&self, state: &SVector<f64, 2>) -> f64 {
+        self.kinetic_energy(state)
     }
-    // The Taylor series of p2 by Horner's rule; its 19th term is below one unit in the last place at z = 1.
-    let p2 = (3..=19).rev().fold(1.0, |sum, k| 1.0 - z / f64::from(k) * sum) / 2.0;
-    let p1 = 1.0 - z * p2;
-    (1.0 - z * p1, p1, p2)
+
+    fn powers(&self, state: &SVector<f64, 2>, input: &SVector<f64, 1>) -> Powers {
+        Powers {
+            input: self.force(input[0]) * state[1],
+            dissipated: self.damping * state[1] * state[1],
+            delivered: 0.0,
+        }
+    }
 }
 
-fn positive(parameter: &'static str, value: f64) -> Result<(), ModelError> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(ModelError::Parameter { parameter, range: "positive and finite", value })
+impl HeldEnergetic<2, 1> for LinearMotor {
+    fn heat(&self, interval: f64) -> Result<QuadraticIntegral<2, 1>, ModelError> {
+        let system = self.state_space()?;
+        quadratic_integral(system.a(), system.b(), &matrix![0.0, 0.0; 0.0, self.damping], interval)
+    }
+
+    fn work(&self, realised: &SVector<f64, 1>, change: &SVector<f64, 2>) -> Work {
+        Work { input: self.gain() * realised[0] * change[0], delivered: 0.0 }
     }
 }
 
@@ -241,14 +237,6 @@ mod tests {
                     assert!((x - y).abs() <= 1e-13 * x.abs().max(1e-20), "{x} {y} {damping} {interval}");
                 }
             }
-        }
-    }
-
-    #[test]
-    fn the_decay_functions_join() {
-        let (below, above) = (decay_functions(1.0), decay_functions(1.0 + 1e-15));
-        for (x, y) in [(below.0, above.0), (below.1, above.1), (below.2, above.2)] {
-            assert!((x - y).abs() < 2e-15);
         }
     }
 

@@ -1,11 +1,21 @@
 //! Continuous models of plants.
 
+mod check;
+mod decay;
 mod discrete;
 mod linear_motor;
+mod low_pass;
 mod plant;
+mod pmsm;
 mod state_space;
+mod two_inertia;
 
 pub use discrete::DiscreteStateSpace;
 pub use linear_motor::LinearMotor;
+pub use low_pass::LowPass;
 pub use plant::Plant;
+pub use pmsm::{Pmsm, PmsmDrive, PmsmWindings};
 pub use state_space::StateSpace;
+pub use two_inertia::TwoInertia;
+
+pub(crate) use state_space::finite;

@@ -25,7 +25,8 @@ pub struct Saturation<const M: usize> {
 enum Kind<const M: usize> {
     None,
     Bounds { lower: SVector<f64, M>, upper: SVector<f64, M> },
-    Norm(f64),
+    // Of the first `count` inputs.
+    Norm { count: usize, limit: f64 },
 }
 
 impl<const M: usize> Saturation<M> {
@@ -63,8 +64,25 @@ impl<const M: usize> Saturation<M> {
     /// # Errors
     /// A limit that is negative or NaN.
     pub fn norm(limit: f64) -> Result<Self, SimulationError> {
+        Self::leading_norm(M, limit)
+    }
+
+    /// As [`norm`](Self::norm), of the first `count` inputs alone; those that follow pass.
+    ///
+    /// # Errors
+    /// A limit that is negative or NaN.
+    ///
+    /// ```
+    /// use plants::{Saturation, nalgebra::{self, vector}};
+    ///
+    /// // Two voltages and a load torque.
+    /// let inverter = Saturation::leading_norm(2, 10.0)?;
+    /// assert_eq!(inverter.apply(&vector![12.0, 16.0, 50.0]), vector![6.0, 8.0, 50.0]);
+    /// # Ok::<(), plants::SimulationError>(())
+    /// ```
+    pub fn leading_norm(count: usize, limit: f64) -> Result<Self, SimulationError> {
         if limit >= 0.0 {
-            Ok(Self { kind: Kind::Norm(limit) })
+            Ok(Self { kind: Kind::Norm { count, limit } })
         } else {
             Err(SimulationError::Saturation { lower: 0.0, upper: limit })
         }
@@ -73,6 +91,11 @@ impl<const M: usize> Saturation<M> {
     /// As [`symmetric`](Self::symmetric), of a limit known to be positive.
     pub(crate) fn symmetric_unchecked(limit: f64) -> Self {
         Self { kind: Kind::Bounds { lower: SVector::repeat(-limit), upper: SVector::repeat(limit) } }
+    }
+
+    /// As [`leading_norm`](Self::leading_norm) of two inputs, of a limit known to be positive.
+    pub(crate) fn circle_unchecked(limit: f64) -> Self {
+        Self { kind: Kind::Norm { count: 2, limit } }
     }
 
     /// The input realised of a finite command.
@@ -88,14 +111,20 @@ impl<const M: usize> Saturation<M> {
                 }
                 realised
             }
-            Kind::Norm(limit) => {
-                let largest = command.amax();
+            Kind::Norm { count, limit } => {
+                let leading = || command.iter().take(*count);
+                let largest = leading().fold(0.0_f64, |largest, x| largest.max(x.abs()));
                 if largest <= 0.0 {
                     return *command;
                 }
                 // Scaled, so that the square of a large command does not overflow.
-                let norm = largest * Real::sqrt((command / largest).norm_squared());
-                if norm > *limit { command / largest * (*limit / (norm / largest)) } else { *command }
+                let square: f64 = leading().map(|x| (x / largest) * (x / largest)).sum();
+                let length = Real::sqrt(square);
+                let mut realised = *command;
+                if largest * length > *limit {
+                    realised.iter_mut().take(*count).for_each(|x| *x = *x / largest * (*limit / length));
+                }
+                realised
             }
         }
     }
@@ -117,6 +146,10 @@ mod tests {
         assert_eq!(circle.apply(&vector![3.0, -4.0]), vector![3.0, -4.0]);
         assert_eq!(circle.apply(&vector![0.0, 0.0]), vector![0.0, 0.0]);
         assert!((circle.apply(&vector![3e300, 4e300]) - vector![3.0, 4.0]).norm() < 1e-15);
+        let leading = Saturation::leading_norm(2, 5.0).expect("positive");
+        assert_eq!(leading.apply(&vector![-30.0, 40.0, 1e3]), vector![-3.0, 4.0, 1e3]);
+        assert_eq!(leading.apply(&vector![3.0, 4.0, -1e3]), vector![3.0, 4.0, -1e3]);
+        assert_eq!(Saturation::circle_unchecked(5.0).apply(&vector![-30.0]), vector![-5.0]);
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 use profiles::Real;
 
-use super::Stepper;
 use super::stepper::check;
+use super::{MeteredRk4, Stepper};
 use crate::error::StepError;
 use crate::models::Plant;
 
@@ -65,17 +65,35 @@ impl<P> Rk4<P> {
         &self.plant
     }
 
+    /// The same steps with an account of the energy.
+    #[must_use]
+    pub fn metered(self) -> MeteredRk4<P> {
+        MeteredRk4::new(self)
+    }
+
+    /// As [`substeps`](Self::substeps), the usual case first and inline.
+    #[inline]
+    pub(super) fn count(&self, interval: f64) -> Result<u32, StepError> {
+        match self.substeps {
+            Substeps::Fixed(substeps) if self.spectral_radius * interval <= STABLE * f64::from(substeps) => {
+                Ok(substeps)
+            }
+            _ => self.substeps(interval),
+        }
+    }
+
     /// The number of substeps of an interval in s.
     ///
     /// # Errors
     /// More than a million, or a fixed number with which the method is unstable.
+    #[inline(never)]
     pub fn substeps(&self, interval: f64) -> Result<u32, StepError> {
         let product = self.spectral_radius * interval;
         match self.substeps {
             Substeps::Fixed(substeps) => {
-                let step = interval / f64::from(substeps);
-                let product = product / f64::from(substeps);
-                if product > STABLE {
+                if product > STABLE * f64::from(substeps) {
+                    let step = interval / f64::from(substeps);
+                    let product = product / f64::from(substeps);
                     return Err(StepError::Unstable { step, product, limit: STABLE });
                 }
                 Ok(substeps)
@@ -100,9 +118,10 @@ impl<const N: usize, const M: usize, P: Plant<N, M>> Stepper<N, M> for Rk4<P> {
         interval: f64,
     ) -> Result<SVector<f64, N>, StepError> {
         check(interval)?;
-        let substeps = self.substeps(interval)?;
-        let step = interval / f64::from(substeps);
+        let substeps = self.count(interval)?;
         let mut derivative = |_: f64, x: &SVector<f64, N>| self.plant.derivative(x, input);
+        // A single step needs no division.
+        let step = if substeps == 1 { interval } else { interval / f64::from(substeps) };
         Ok((0..substeps).fold(*state, |x, _| rk4_step(&mut derivative, 0.0, &x, step)))
     }
 }

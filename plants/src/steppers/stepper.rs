@@ -18,6 +18,7 @@ pub trait Stepper<const N: usize, const M: usize> {
     ) -> Result<SVector<f64, N>, StepError>;
 }
 
+#[inline]
 pub(crate) fn check(interval: f64) -> Result<(), StepError> {
     if interval >= 0.0 && interval.is_finite() { Ok(()) } else { Err(StepError::Interval(interval)) }
 }

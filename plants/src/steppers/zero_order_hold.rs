@@ -2,8 +2,10 @@
 
 use nalgebra::SVector;
 
-use super::Stepper;
+use super::kept::Kept;
 use super::stepper::check;
+use super::{MeteredHold, Stepper};
+use crate::energy::HeldEnergetic;
 use crate::error::{ModelError, StepError};
 use crate::linear::Transition;
 
@@ -22,8 +24,6 @@ pub trait HeldLinear<const N: usize, const M: usize> {
     }
 }
 
-const KEPT: usize = 8;
-
 /// Exact steps of a linear plant under a held input, whatever the interval.
 ///
 /// The transitions of the last eight distinct intervals are kept, so that a step split by a computation delay or a
@@ -41,15 +41,14 @@ const KEPT: usize = 8;
 #[derive(Debug, Clone)]
 pub struct ZeroOrderHold<const N: usize, const M: usize, L> {
     model: L,
-    // Ordered from the last used; the key is the interval.
-    kept: Vec<(f64, Transition<N, M>)>,
+    kept: Kept<Transition<N, M>>,
 }
 
 impl<const N: usize, const M: usize, L: HeldLinear<N, M>> ZeroOrderHold<N, M, L> {
     /// Exact steps of `model`.
     #[must_use]
     pub fn new(model: L) -> Self {
-        Self { model, kept: Vec::with_capacity(KEPT) }
+        Self { model, kept: Kept::new() }
     }
 
     /// The plant.
@@ -58,23 +57,13 @@ impl<const N: usize, const M: usize, L: HeldLinear<N, M>> ZeroOrderHold<N, M, L>
         &self.model
     }
 
-    fn find(&mut self, interval: f64) -> Result<&Transition<N, M>, StepError> {
-        let bits = interval.to_bits();
-        let place = match self.kept.iter().position(|(kept, _)| kept.to_bits() == bits) {
-            Some(place) => place,
-            None => {
-                let transition = self.model.transition(interval)?;
-                if self.kept.len() == KEPT {
-                    self.kept.pop();
-                }
-                self.kept.push((interval, transition));
-                self.kept.len() - 1
-            }
-        };
-        // One place forward at each use keeps the frequent ones in front without moving all of them.
-        let ahead = place.saturating_sub(1);
-        self.kept.swap(place, ahead);
-        Ok(&self.kept[ahead].1)
+    /// The same steps with an account of the energy.
+    #[must_use]
+    pub fn metered(self) -> MeteredHold<N, M, L>
+    where
+        L: HeldEnergetic<N, M>,
+    {
+        MeteredHold::new(self.model)
     }
 }
 
@@ -88,7 +77,8 @@ impl<const N: usize, const M: usize, L: HeldLinear<N, M>> Stepper<N, M> for Zero
     ) -> Result<SVector<f64, N>, StepError> {
         check(interval)?;
         let realised = self.model.realised(input);
-        Ok(self.find(interval)?.apply(state, &realised))
+        let Self { model, kept } = self;
+        Ok(kept.get(interval, || model.transition(interval))?.apply(state, &realised))
     }
 }
 
@@ -116,9 +106,7 @@ mod tests {
             state = stepper.advance(&state, &input, interval).expect("finite");
             direct = system.transition(interval).expect("finite").apply(&direct, &input);
             assert_eq!(state, direct);
-            assert!(stepper.kept.len() <= KEPT);
         }
-        assert_eq!(stepper.kept.capacity(), KEPT);
     }
 
     #[test]

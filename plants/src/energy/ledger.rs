@@ -1,4 +1,4 @@
-//! Where the energy of a motion went.
+//! The balance of a motion.
 
 /// The energy balance of a plant over a motion: `input = stored + dissipated + delivered`, every term in J.
 ///
@@ -28,6 +28,14 @@ pub struct EnergyLedger {
 }
 
 impl EnergyLedger {
+    /// Adds what flowed over an interval.
+    pub(crate) fn add(&mut self, flow: &Self) {
+        self.input += flow.input;
+        self.stored += flow.stored;
+        self.dissipated += flow.dissipated;
+        self.delivered += flow.delivered;
+    }
+
     /// What is unaccounted for, J: `input - stored - dissipated - delivered`.
     #[must_use]
     pub fn imbalance(&self) -> f64 {
