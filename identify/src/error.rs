@@ -1,0 +1,159 @@
+//! What can be wrong with a signal or an estimate, with the number that is wrong.
+
+use thiserror::Error;
+
+/// A recorded signal that cannot be, or a question it has no answer to.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SignalError {
+    /// No samples.
+    #[error("a signal needs at least one sample")]
+    Empty,
+    /// Times and values of different lengths.
+    #[error("{times} times do not fit {values} values")]
+    Lengths {
+        /// Number of times.
+        times: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A value that is infinite or NaN.
+    #[error("sample {index} must be finite, got {value}")]
+    Value {
+        /// Index of the sample, from zero.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A time that is not finite or not after the one before.
+    #[error("times must be finite and increase: sample {index} is at {time} s")]
+    Time {
+        /// Index of the sample, from zero.
+        index: usize,
+        /// The time, s.
+        time: f64,
+    },
+    /// A sample period that is not positive and finite.
+    #[error("a sample period must be positive and finite, got {0} s")]
+    Period(f64),
+    /// A number that must be finite, or positive where it says so.
+    #[error("{quantity} must be {range}, got {value}")]
+    Number {
+        /// Which number.
+        quantity: &'static str,
+        /// The range it must lie in.
+        range: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// A move of no length, of which nothing can be a part.
+    #[error("a move needs two different ends, got {0} twice")]
+    NoMove(f64),
+    /// No samples from an instant on.
+    #[error("there is no sample from {instant} s on: the last is at {last} s")]
+    NothingAfter {
+        /// The instant, s.
+        instant: f64,
+        /// The last sample, s.
+        last: f64,
+    },
+    /// The last sample is outside the band.
+    #[error("the signal does not settle: at its end it is {error} from the target, the band is {band}")]
+    NotSettled {
+        /// The last error.
+        error: f64,
+        /// Half the width of the band.
+        band: f64,
+    },
+    /// The signal never reaches a level.
+    #[error("the signal does not reach {level}, only {extreme}")]
+    NotReached {
+        /// The level.
+        level: f64,
+        /// The value nearest to it.
+        extreme: f64,
+    },
+}
+
+/// Peaks from which no decrement follows.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum DecrementError {
+    /// No cycles to look at.
+    #[error("a decrement needs at least one cycle")]
+    Cycles,
+    /// Fewer peaks than the cycles need.
+    #[error("{needed} peaks are needed, there are {found}")]
+    TooFewPeaks {
+        /// Peaks needed.
+        needed: usize,
+        /// Peaks found.
+        found: usize,
+    },
+    /// A peak or a trough on the wrong side of the target, on it, or not finite.
+    #[error("the peak at {time} s must stand off the target on its own side, its height is {height}")]
+    Height {
+        /// Time of the peak, s.
+        time: f64,
+        /// Height over the target, of a trough below it.
+        height: f64,
+    },
+    /// The later peak is no earlier in time than the first.
+    #[error("the peaks must follow each other, the interval is {0} s")]
+    Interval(f64),
+    /// The later peak is not lower: the damping would not be positive.
+    #[error(
+        "the peaks do not decay: the ratio of first to last is {ratio}, the damping would be {damping_ratio}"
+    )]
+    Growing {
+        /// Height of the first over that of the last.
+        ratio: f64,
+        /// The damping ratio that this means, zero or negative.
+        damping_ratio: f64,
+    },
+}
+
+/// Why there is no fit of damped sinusoids.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SinusoidError {
+    /// A signal that cannot be.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// Options out of range.
+    #[error("the largest order must be 2 to {most}, got {given}")]
+    Order {
+        /// The order given.
+        given: usize,
+        /// The most allowed.
+        most: usize,
+    },
+    /// Fewer samples than a fit of one mode needs.
+    #[error("{samples} samples are too few, a fit needs {needed}")]
+    TooShort {
+        /// Samples given.
+        samples: usize,
+        /// Samples needed.
+        needed: usize,
+    },
+    /// Nothing that oscillates stands out of the noise.
+    #[error("no mode stands out of the noise, which has a standard deviation of {noise}; {decays} decays do")]
+    NoMode {
+        /// Standard deviation of what the fit leaves.
+        noise: f64,
+        /// Decays without oscillation that were found.
+        decays: usize,
+    },
+    /// A mode grows by more than its uncertainty allows for.
+    #[error(
+        "the mode at {angular_frequency} rad/s grows: damping ratio {damping_ratio}, standard deviation {deviation}"
+    )]
+    Unstable {
+        /// Undamped angular frequency, rad/s.
+        angular_frequency: f64,
+        /// Damping ratio, negative.
+        damping_ratio: f64,
+        /// Its standard deviation.
+        deviation: f64,
+    },
+}
