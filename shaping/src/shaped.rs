@@ -13,7 +13,8 @@ use crate::train::ImpulseTrain;
 /// two instants at which a copy goes from one section to the next: cursors and pulse trains run it like a motion law,
 /// and another train can shape it again. The profile is taken by value or by reference.
 ///
-/// A change of velocity counts its position from the start too, so it starts at zero as the unshaped one does.
+/// A start or stop speed is shared out like everything else: the motion jumps to the first impulse's share of it. A
+/// change of velocity counts its position from the start, at zero as the unshaped one does.
 ///
 /// ```
 /// use profiles::{Limits, Mode, Profile, SCurve, residual_vibration};
