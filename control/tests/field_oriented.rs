@@ -167,6 +167,35 @@ fn the_velocity_loop_does_not_wind_up_at_the_voltage_limit() {
     assert!(last > 100.0, "{last} rad/s");
 }
 
+/// 60 V allow 114 rad/s: asked for 120 for a second, within the current limit at last, then for 100.
+#[test]
+fn the_velocity_loop_goes_by_the_current_that_flows_while_the_voltage_falls_short() {
+    let cascade = Cascade::new(0.0, PiGains { kp: 0.5, ki: 5.0 }, PERIOD)
+        .and_then(|c| c.with_velocity_feedforward(1.0))
+        .and_then(|c| c.with_current_limit(10.0))
+        .expect("valid");
+    let servo = FieldOriented::new(cascade, current_loop(60.0), 3).expect("valid");
+    let (mut state, mut motor) = (FieldOrientedState::new(), Motor::default());
+    let mut short_since = None;
+    for _ in 0..10_000 {
+        let output = servo.update(&mut state, motor.input(Sample { velocity: 120.0, ..Sample::default() }));
+        motor.run(output.voltage, 0.0);
+        if output.current_loop == CurrentStatus::Limited && motor.velocity > 100.0 && short_since.is_none() {
+            short_since = Some(state.cascade().integral());
+        }
+    }
+    // 2.9 A are asked for and none flows; left alone the integral would fill up the 10 A and take 0.3 s to empty.
+    assert_eq!(short_since, Some(state.cascade().integral()));
+    let mut lowest = f64::INFINITY;
+    for _ in 0..1000 {
+        let output = servo.update(&mut state, motor.input(Sample { velocity: 100.0, ..Sample::default() }));
+        motor.run(output.voltage, 0.0);
+        lowest = lowest.min(motor.velocity);
+    }
+    // From e = 14.3 rad/s the linear loop falls 0.0706 of it short, as in the test above.
+    assert!((lowest - (100.0 - 0.0706 * 14.3)).abs() < 0.1, "{lowest} rad/s");
+}
+
 proptest! {
     #[test]
     fn phases_are_rotor_axes_seen_from_the_stator(
