@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use plants::nalgebra::{SVector, vector};
 use plants::{PmsmDrive, PmsmWindings, Rk4, Stepper, TransportDelay, TwoInertia, ZeroOrderHold};
 
@@ -10,22 +10,32 @@ fn axis() -> Option<TwoInertia> {
     TwoInertia::new(0.003, 5.066e-4, 100.0).and_then(|axis| axis.with_damping(0.008, 0.006, 0.0)).ok()
 }
 
+// A run of so many steps, so that the state stays where a loop keeps it.
+const STEPS: u64 = 100;
+
 /// The two-inertia axis under a held torque, exactly.
 fn exact_tick(criterion: &mut Criterion) {
     let Some(axis) = axis() else { return };
     let Ok(discrete) = axis.state_space().and_then(|system| system.discretise(1e-4)) else { return };
     let mut group = criterion.benchmark_group("two-inertia tick");
+    group.throughput(Throughput::Elements(STEPS));
     let torque = vector![0.1, 0.0];
     group.bench_function("discrete state space", |b| {
         let mut x = vector![0.01, 0.0, 0.0, 0.0];
-        b.iter(|| x = discrete.step(&x, black_box(&torque)));
+        b.iter(|| {
+            for _ in 0..STEPS {
+                x = discrete.step(&x, black_box(&torque));
+            }
+        });
     });
     group.bench_function("zero-order hold", |b| {
         let mut stepper = ZeroOrderHold::new(axis);
         let mut x = vector![0.01, 0.0, 0.0, 0.0];
         b.iter(|| {
-            if let Ok(next) = stepper.advance(&x, black_box(&torque), black_box(1e-4)) {
-                x = next;
+            for _ in 0..STEPS {
+                if let Ok(next) = stepper.advance(&x, black_box(&torque), black_box(1e-4)) {
+                    x = next;
+                }
             }
         });
     });
@@ -33,8 +43,10 @@ fn exact_tick(criterion: &mut Criterion) {
         let mut stepper = ZeroOrderHold::new(axis).metered();
         let mut x = vector![0.01, 0.0, 0.0, 0.0];
         b.iter(|| {
-            if let Ok(next) = stepper.advance(&x, black_box(&torque), black_box(1e-4)) {
-                x = next;
+            for _ in 0..STEPS {
+                if let Ok(next) = stepper.advance(&x, black_box(&torque), black_box(1e-4)) {
+                    x = next;
+                }
             }
         });
     });
@@ -101,9 +113,14 @@ fn drive_step(criterion: &mut Criterion) {
     };
     let voltage = [1.0, 12.0, 0.1];
     let mut group = criterion.benchmark_group("PMSM drive, one RK4 step");
+    group.throughput(Throughput::Elements(STEPS));
     group.bench_function("by hand", |b| {
         let (mut x, hand) = ([0.0; 6], black_box(hand));
-        b.iter(|| x = hand.step(&x, black_box(&voltage), black_box(1e-4)));
+        b.iter(|| {
+            for _ in 0..STEPS {
+                x = hand.step(&x, black_box(&voltage), black_box(1e-4));
+            }
+        });
     });
     for (name, windings) in [("Rk4", windings), ("Rk4, voltage limit", limited)] {
         let Ok(mut stepper) = Rk4::fixed(PmsmDrive::new(windings, axis), 1, 500.0) else { return };
@@ -111,8 +128,10 @@ fn drive_step(criterion: &mut Criterion) {
             let mut x = SVector::<f64, 6>::zeros();
             let voltage = SVector::from(voltage);
             b.iter(|| {
-                if let Ok(next) = stepper.advance(&x, black_box(&voltage), black_box(1e-4)) {
-                    x = next;
+                for _ in 0..STEPS {
+                    if let Ok(next) = stepper.advance(&x, black_box(&voltage), black_box(1e-4)) {
+                        x = next;
+                    }
                 }
             });
         });
@@ -121,8 +140,10 @@ fn drive_step(criterion: &mut Criterion) {
             let mut x = SVector::<f64, 6>::zeros();
             let voltage = SVector::from(voltage);
             b.iter(|| {
-                if let Ok(next) = metered.advance(&x, black_box(&voltage), black_box(1e-4)) {
-                    x = next;
+                for _ in 0..STEPS {
+                    if let Ok(next) = metered.advance(&x, black_box(&voltage), black_box(1e-4)) {
+                        x = next;
+                    }
                 }
             });
         });

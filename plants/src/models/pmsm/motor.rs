@@ -72,9 +72,10 @@ impl Pmsm {
     /// The same motor with viscous friction in N m s/rad.
     ///
     /// # Errors
-    /// A friction that is negative or not finite.
+    /// A friction that is negative or not finite, or so over the inertia.
     pub fn with_friction(self, friction: f64) -> Result<Self, ModelError> {
         not_negative("the friction in N m s/rad", friction)?;
+        not_negative("the friction over the inertia in 1/s", friction * self.per_inertia)?;
         Ok(Self { friction, ..self })
     }
 
