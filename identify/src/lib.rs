@@ -5,9 +5,11 @@ mod error;
 mod peaks;
 mod response_class;
 mod signal;
+mod sinusoids;
 
 pub use decrement::LogarithmicDecrement;
 pub use error::{DecrementError, SignalError, SinusoidError};
 pub use peaks::{Peak, Peaks};
 pub use response_class::{ClassifiedResponse, ResponseClass, ResponseClassifier};
 pub use signal::Signal;
+pub use sinusoids::{DampedSinusoids, DecayEstimate, ModeEstimate, SinusoidOptions, fit_damped_sinusoids};

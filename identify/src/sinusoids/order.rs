@@ -1,0 +1,104 @@
+//! How many poles: a start from the pencil, then poles added and dropped while the information criterion falls.
+
+use super::basis::{Pole, order, residual};
+use super::fit::Fit;
+use super::pencil::starts;
+
+/// The data and what is fixed of the model.
+pub(super) struct Problem<'a> {
+    pub(super) y: &'a [f64],
+    pub(super) offset: bool,
+    pub(super) largest_order: usize,
+    /// Sum of squares that rounding alone may leave.
+    pub(super) floor: f64,
+}
+
+impl Problem<'_> {
+    /// The fit with the lowest criterion that the search meets.
+    pub(super) fn search(&self) -> Option<Fit> {
+        const ROUNDS: usize = 8;
+        let empty = self.linear(Vec::new())?;
+        let start = starts(self.y, self.largest_order)
+            .into_iter()
+            .filter_map(|poles| self.linear(self.without_constant(poles)))
+            .fold(empty, |best, fit| self.better(best, fit));
+        let mut best = self.refined(start);
+        for _ in 0..ROUNDS {
+            let before = self.criterion(&best);
+            let dropped = self.dropped(&best);
+            best = dropped.into_iter().fold(best, |best, fit| self.better(best, fit));
+            let added = self.added(&best);
+            best = added.into_iter().fold(best, |best, fit| self.better(best, fit));
+            if self.criterion(&best) >= before {
+                break;
+            }
+        }
+        Some(best)
+    }
+
+    /// Schwarz's criterion: `N ln(sum of squares) + parameters ln N`.
+    ///
+    /// # References
+    /// G. Schwarz, "Estimating the dimension of a model", Annals of Statistics 6 (1978), doi:10.1214/aos/1176344136.
+    fn criterion(&self, fit: &Fit) -> f64 {
+        let samples = self.y.len() as f64;
+        samples * fit.square.max(self.floor).ln() + 2.0 * order(&fit.poles) as f64 * samples.ln()
+    }
+
+    fn better(&self, one: Fit, other: Fit) -> Fit {
+        if self.criterion(&other) < self.criterion(&one) { other } else { one }
+    }
+
+    fn linear(&self, poles: Vec<Pole>) -> Option<Fit> {
+        Fit::linear(poles, self.offset, self.y)
+    }
+
+    fn refined(&self, fit: Fit) -> Fit {
+        fit.refined(self.offset, self.y, self.floor)
+    }
+
+    /// Without real poles that the record cannot tell from the constant.
+    fn without_constant(&self, mut poles: Vec<Pole>) -> Vec<Pole> {
+        let samples = self.y.len() as f64;
+        poles.retain(|pole| {
+            !(self.offset && matches!(pole, Pole::Real { decay } if decay.abs() * samples < 1.0))
+        });
+        poles
+    }
+
+    /// The fit without its least useful pole, and with a pair that hardly turns as one or two decays.
+    fn dropped(&self, fit: &Fit) -> Vec<Fit> {
+        let with = |at: usize, others: &[Pole]| {
+            let mut poles = fit.poles.clone();
+            poles.splice(at..=at, others.iter().copied());
+            self.linear(poles)
+        };
+        let weakest = (0..fit.poles.len())
+            .filter_map(|at| with(at, &[]))
+            .min_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
+        let flattened = fit.poles.iter().enumerate().flat_map(|(at, pole)| match *pole {
+            Pole::Pair { decay, turn } if turn < decay => {
+                let one = with(at, &[Pole::Real { decay }]);
+                let two = with(at, &[Pole::Real { decay: 0.7 * decay }, Pole::Real { decay: 1.4 * decay }]);
+                [one, two]
+            }
+            _ => [None, None],
+        });
+        weakest.into_iter().chain(flattened.flatten()).map(|fit| self.refined(fit)).collect()
+    }
+
+    /// The fit with the strongest one or two poles of what it leaves.
+    fn added(&self, fit: &Fit) -> Vec<Fit> {
+        let left = residual(&fit.poles, &fit.amplitudes, self.offset, self.y);
+        starts(&left, 2)
+            .into_iter()
+            .filter_map(|more| {
+                let more = self.without_constant(more);
+                let poles: Vec<Pole> = fit.poles.iter().copied().chain(more.iter().copied()).collect();
+                let fits = !more.is_empty() && order(&poles) <= self.largest_order;
+                if fits { self.linear(poles) } else { None }
+            })
+            .map(|fit| self.refined(fit))
+            .collect()
+    }
+}
