@@ -4,6 +4,9 @@ use super::basis::{Pole, order, residual};
 use super::fit::Fit;
 use super::pencil::starts;
 
+/// Iterations that show whether another model is better: from a start nearby the first few gain nearly all.
+const TRIAL: usize = 8;
+
 /// The data and what is fixed of the model.
 pub(super) struct Problem<'a> {
     pub(super) y: &'a [f64],
@@ -17,12 +20,13 @@ impl Problem<'_> {
     /// The fit with the lowest criterion that the search meets.
     pub(super) fn search(&self) -> Option<Fit> {
         const ROUNDS: usize = 8;
+        const TO_THE_END: usize = 60;
         let empty = self.linear(Vec::new())?;
         let start = starts(self.y, self.largest_order)
             .into_iter()
             .filter_map(|poles| self.linear(self.without_constant(poles)))
             .fold(empty, |best, fit| self.better(best, fit));
-        let mut best = self.refined(start);
+        let mut best = self.refined(start, TO_THE_END);
         for _ in 0..ROUNDS {
             let before = self.criterion(&best);
             let dropped = self.dropped(&best);
@@ -32,6 +36,7 @@ impl Problem<'_> {
             if self.criterion(&best) >= before {
                 break;
             }
+            best = self.refined(best, TO_THE_END);
         }
         Some(best)
     }
@@ -53,8 +58,8 @@ impl Problem<'_> {
         Fit::linear(poles, self.offset, self.y)
     }
 
-    fn refined(&self, fit: Fit) -> Fit {
-        fit.refined(self.offset, self.y, self.floor)
+    fn refined(&self, fit: Fit, iterations: usize) -> Fit {
+        fit.refined(self.offset, self.y, self.floor, iterations)
     }
 
     /// Without real poles that the record cannot tell from the constant.
@@ -84,7 +89,7 @@ impl Problem<'_> {
             }
             _ => [None, None],
         });
-        weakest.into_iter().chain(flattened.flatten()).map(|fit| self.refined(fit)).collect()
+        weakest.into_iter().chain(flattened.flatten()).map(|fit| self.refined(fit, TRIAL)).collect()
     }
 
     /// The fit with the strongest one or two poles of what it leaves.
@@ -98,7 +103,7 @@ impl Problem<'_> {
                 let fits = !more.is_empty() && order(&poles) <= self.largest_order;
                 if fits { self.linear(poles) } else { None }
             })
-            .map(|fit| self.refined(fit))
+            .map(|fit| self.refined(fit, TRIAL))
             .collect()
     }
 }
