@@ -22,11 +22,22 @@ impl Problem<'_> {
         const ROUNDS: usize = 8;
         const TO_THE_END: usize = 60;
         let empty = self.linear(Vec::new())?;
-        let start = starts(self.y, self.largest_order)
+        let starts: Vec<Fit> = starts(self.y, self.largest_order)
             .into_iter()
             .filter_map(|poles| self.linear(self.without_constant(poles)))
-            .fold(empty, |best, fit| self.better(best, fit));
-        let mut best = self.refined(start, TO_THE_END);
+            .collect();
+        // Unrefined poles leave more than noise, which tempts to more of them: refine the fewest that come near.
+        let least = starts.iter().map(|fit| fit.square.max(self.floor)).fold(f64::INFINITY, f64::min);
+        let fewest = starts
+            .iter()
+            .filter(|fit| fit.square <= 2.0 * least)
+            .min_by_key(|fit| order(&fit.poles))
+            .map(|fit| self.refined(fit.clone(), TO_THE_END));
+        let start = starts.into_iter().fold(empty, |best, fit| self.better(best, fit));
+        let mut best = match fewest {
+            Some(fewest) if self.criterion(&fewest) <= self.criterion(&start) => fewest,
+            _ => self.refined(start, TO_THE_END),
+        };
         for _ in 0..ROUNDS {
             let before = self.criterion(&best);
             let dropped = self.dropped(&best);
@@ -80,7 +91,9 @@ impl Problem<'_> {
         };
         let weakest = (0..fit.poles.len())
             .filter_map(|at| with(at, &[]))
-            .min_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)));
+            .min_by(|a, b| self.criterion(a).total_cmp(&self.criterion(b)))
+            // What refinement of the others cannot make good is not worth the try.
+            .filter(|fit_without| fit_without.square <= 4.0 * fit.square.max(self.floor));
         let flattened = fit.poles.iter().enumerate().flat_map(|(at, pole)| match *pole {
             Pole::Pair { decay, turn } if turn < decay => {
                 let one = with(at, &[Pole::Real { decay }]);
