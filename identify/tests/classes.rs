@@ -1,4 +1,5 @@
 //! Synthetic responses of each class, with noise.
+#![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
 
 use identify::{ResponseClass, ResponseClassifier, Signal};
 use plants::{GaussianNoise, Noise};

@@ -131,8 +131,23 @@ fn decays_are_no_modes() {
 }
 
 #[test]
+fn a_heavily_damped_mode_is_no_pair_of_decays_and_the_other_way_round() {
+    let mode = signal(&[[10.0 * TAU, 0.8, 1.0, 0.3]]);
+    let decay = |t: f64| (-20.0 * t).exp() - (-25.0 * t).exp();
+    let decays: Vec<f64> = (0..SAMPLES).map(|n| decay(n as f64 * PERIOD)).collect();
+    let mut right = [0; 2];
+    for seed in 0..50 {
+        let found = fit(&noisy(&mode, 0.01, seed));
+        right[0] += u32::from(found.is_ok_and(|found| found.modes.len() == 1 && found.decays.is_empty()));
+        let found = fit(&noisy(&decays, 0.003, seed));
+        right[1] += u32::from(matches!(found, Err(SinusoidError::NoMode { decays: 2, .. })));
+    }
+    assert!(right.iter().all(|right| *right >= 49), "{right:?} of 50");
+}
+
+#[test]
 fn close_modes_are_told_apart() {
-    // Half a bandwidth (2 z f) apart; the first pole alone is 4 rad/s off the axis.
+    // Apart by 0.8 Hz, less than the bandwidth 2 z f of 1.3 Hz.
     let close = [[40.0 * TAU, 0.016, 1.0, 0.0], [40.8 * TAU, 0.016, 0.8, 1.0]];
     let found = fit(&signal(&close)).expect("two modes");
     assert_eq!(found.order(), 4);

@@ -52,13 +52,24 @@ impl Problem<'_> {
         Some(best)
     }
 
-    /// Schwarz's criterion: `N ln(sum of squares) + parameters ln N`.
+    /// Schwarz's criterion with a correction for few samples: `N ln(sum of squares) + p ln N (N / (N - p - 1))`, `p`
+    /// parameters. A pair costs at least 24, so that the best of a few hundred candidates in noise is not taken. One
+    /// that decays faster than it turns costs ten more: two decays look alike, and a mode must be e^5 likelier.
     ///
     /// # References
-    /// G. Schwarz, "Estimating the dimension of a model", Annals of Statistics 6 (1978), doi:10.1214/aos/1176344136.
+    /// G. Schwarz, "Estimating the dimension of a model", Annals of Statistics 6 (1978), doi:10.1214/aos/1176344136;
+    /// A. D. R. McQuarrie, "A small-sample correction for the Schwarz SIC model selection criterion", Statistics &
+    /// Probability Letters 44 (1999), doi:10.1016/S0167-7152(98)00294-6.
     fn criterion(&self, fit: &Fit) -> f64 {
+        const LEAST: f64 = 6.0;
+        const HEAVILY_DAMPED: f64 = 10.0;
         let samples = self.y.len() as f64;
-        samples * fit.square.max(self.floor).ln() + 2.0 * order(&fit.poles) as f64 * samples.ln()
+        let parameters = 2.0 * order(&fit.poles) as f64;
+        let few = samples / (samples - parameters - 2.0).max(1.0);
+        let heavy = fit.poles.iter().filter(|pole| heavily_damped(pole)).count() as f64;
+        samples * fit.square.max(self.floor).ln()
+            + HEAVILY_DAMPED * heavy
+            + parameters * samples.ln().max(LEAST) * few
     }
 
     fn better(&self, one: Fit, other: Fit) -> Fit {
@@ -95,14 +106,32 @@ impl Problem<'_> {
             // What refinement of the others cannot make good is not worth the try.
             .filter(|fit_without| fit_without.square <= 4.0 * fit.square.max(self.floor));
         let flattened = fit.poles.iter().enumerate().flat_map(|(at, pole)| match *pole {
-            Pole::Pair { decay, turn } if turn < decay => {
+            Pole::Pair { decay, .. } if heavily_damped(pole) => {
                 let one = with(at, &[Pole::Real { decay }]);
                 let two = with(at, &[Pole::Real { decay: 0.7 * decay }, Pole::Real { decay: 1.4 * decay }]);
                 [one, two]
             }
             _ => [None, None],
         });
-        weakest.into_iter().chain(flattened.flatten()).map(|fit| self.refined(fit, TRIAL)).collect()
+        weakest
+            .into_iter()
+            .chain(flattened.flatten())
+            .chain(self.joined(fit))
+            .map(|fit| self.refined(fit, TRIAL))
+            .collect()
+    }
+
+    /// The fit with one pair in place of all its decays: several of them imitate a heavily damped mode.
+    fn joined(&self, fit: &Fit) -> Option<Fit> {
+        let real = |pole: &Pole| if let Pole::Real { decay } = pole { Some(*decay) } else { None };
+        let decays: Vec<f64> = fit.poles.iter().filter_map(real).collect();
+        if decays.len() < 2 {
+            return None;
+        }
+        let decay = decays.iter().sum::<f64>() / decays.len() as f64;
+        let mut poles: Vec<Pole> = fit.poles.iter().copied().filter(|pole| real(pole).is_none()).collect();
+        poles.push(Pole::Pair { decay, turn: 0.5 * decay.abs() }.bounded(self.y.len()));
+        self.linear(poles)
     }
 
     /// The fit with the strongest one or two poles of what it leaves.
@@ -119,4 +148,9 @@ impl Problem<'_> {
             .map(|fit| self.refined(fit, TRIAL))
             .collect()
     }
+}
+
+/// A pair with a damping ratio above `1/sqrt(2)`.
+fn heavily_damped(pole: &Pole) -> bool {
+    matches!(pole, Pole::Pair { decay, turn } if turn < decay)
 }
