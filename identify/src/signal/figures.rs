@@ -40,9 +40,6 @@ impl Signal<'_> {
     ///
     /// # Errors
     /// Ends that are not finite or equal; a signal that does not reach 90 %.
-    ///
-    /// # References
-    /// IEC 60050-351:2013, 351-45-34 (rise time).
     pub fn rise_time(&self, from: f64, target: f64) -> Result<f64, SignalError> {
         let length = length(from, target)?;
         Ok(self.first_reach(from, length, 0.9)? - self.first_reach(from, length, 0.1)?)

@@ -52,7 +52,7 @@ impl Problem<'_> {
         Some(best)
     }
 
-    /// Schwarz's criterion with a correction for few samples: `N ln(sum of squares) + p ln N (N / (N - p - 1))`, `p`
+    /// Schwarz's criterion with a correction for few samples: `N ln(sum of squares) + p ln N (N / (N - p - 2))`, `p`
     /// parameters. A pair costs at least 24, so that the best of a few hundred candidates in noise is not taken. One
     /// that decays faster than it turns costs ten more: two decays look alike, and a mode must be e^5 likelier.
     ///
