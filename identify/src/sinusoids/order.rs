@@ -58,8 +58,7 @@ impl Problem<'_> {
     ///
     /// # References
     /// G. Schwarz, "Estimating the dimension of a model", Annals of Statistics 6 (1978), doi:10.1214/aos/1176344136;
-    /// A. D. R. McQuarrie, "A small-sample correction for the Schwarz SIC model selection criterion", Statistics &
-    /// Probability Letters 44 (1999), doi:10.1016/S0167-7152(98)00294-6.
+    /// A. D. R. McQuarrie and C.-L. Tsai, "Regression and Time Series Model Selection", World Scientific, 1998.
     fn criterion(&self, fit: &Fit) -> f64 {
         const LEAST: f64 = 6.0;
         const HEAVILY_DAMPED: f64 = 10.0;
