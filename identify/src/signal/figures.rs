@@ -40,9 +40,6 @@ impl Signal<'_> {
     ///
     /// # Errors
     /// Ends that are not finite or equal; a signal that does not reach 90 %.
-    ///
-    /// # References
-    /// IEC 60050-351:2013, 351-45-34 (rise time).
     pub fn rise_time(&self, from: f64, target: f64) -> Result<f64, SignalError> {
         let length = length(from, target)?;
         Ok(self.first_reach(from, length, 0.9)? - self.first_reach(from, length, 0.1)?)
@@ -64,11 +61,11 @@ impl Signal<'_> {
     /// # Errors
     /// No sample from the instant on; an instant that is not finite.
     pub fn steady_value(&self, instant: f64) -> Result<f64, SignalError> {
-        // About the last value: an offset costs no digits.
+        // About the last value an offset costs no digits; halves cannot overflow.
         let last = self.values().last().copied().ok_or(SignalError::Empty)?;
-        let (sum, count) =
-            self.from(instant)?.fold((0.0, 0.0), |(sum, count), y| (sum + (y - last), count + 1.0));
-        Ok(last + sum / count)
+        let count = self.from(instant)?.count() as f64;
+        let half: f64 = self.from(instant)?.map(|y| (0.5 * y - 0.5 * last) / count).sum();
+        Ok(2.0 * (0.5 * last + half))
     }
 
     /// The values from an instant on, at least one.

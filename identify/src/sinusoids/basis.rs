@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 use profiles::{Complex, Real};
 
 /// An exponential of the model, per sample.
@@ -78,41 +78,54 @@ pub(super) struct Amplitudes {
     pub(super) square: f64,
 }
 
-/// The basis with room for `extra` more columns, the constant last when there is one.
-fn basis(poles: &[Pole], offset: bool, samples: usize, extra: usize) -> (Mat<f64>, usize) {
+/// Columns of the basis with room for `extra` more, the constant last when there is one, and their number.
+fn basis(poles: &[Pole], offset: bool, samples: usize, extra: usize) -> (Vec<f64>, usize) {
     let columns = order(poles) + usize::from(offset);
-    let mut matrix = Mat::zeros(samples, columns + extra);
-    let mut column = 0;
+    let mut entries = Vec::with_capacity(samples * (columns + extra));
     for pole in poles {
-        for (n, z) in pole.powers(samples).enumerate() {
-            matrix[(n, column)] = z.re;
-            if pole.order() == 2 {
-                matrix[(n, column + 1)] = z.im;
+        let start = entries.len();
+        match pole {
+            Pole::Pair { .. } => {
+                entries.resize(start + 2 * samples, 0.0);
+                let (re, im) = entries[start..].split_at_mut(samples);
+                for ((re, im), z) in re.iter_mut().zip(im).zip(pole.powers(samples)) {
+                    (*re, *im) = (z.re, z.im);
+                }
             }
+            Pole::Real { .. } => entries.extend(pole.powers(samples).map(|z| z.re)),
         }
-        column += pole.order();
     }
     if offset {
-        (0..samples).for_each(|n| matrix[(n, column)] = 1.0);
+        entries.resize(entries.len() + samples, 1.0);
     }
-    (matrix, columns)
+    (entries, columns)
+}
+
+/// The triangle of the orthogonal decomposition of some columns.
+fn triangle(entries: &[f64], samples: usize) -> Mat<f64> {
+    let columns = entries.len() / samples;
+    MatRef::from_column_major_slice(entries, samples, columns).qr().thin_R().to_owned()
 }
 
 /// The best amplitudes; none where two poles coincide to rounding.
 pub(super) fn amplitudes(poles: &[Pole], offset: bool, y: &[f64]) -> Option<Amplitudes> {
-    let (mut matrix, columns) = basis(poles, offset, y.len(), 1);
-    y.iter().enumerate().for_each(|(n, value)| matrix[(n, columns)] = *value);
-    let r = matrix.qr().thin_R().to_owned();
+    let (mut entries, columns) = basis(poles, offset, y.len(), 1);
+    entries.extend_from_slice(y);
+    let r = triangle(&entries, y.len());
     let values = back_substitute(&r, 0, columns, columns)?;
     Some(Amplitudes { values, square: r[(columns, columns)] * r[(columns, columns)] })
 }
 
 /// What the model leaves of the data.
 pub(super) fn residual(poles: &[Pole], amplitudes: &[f64], offset: bool, y: &[f64]) -> Vec<f64> {
-    let (matrix, columns) = basis(poles, offset, y.len(), 0);
+    let (entries, _) = basis(poles, offset, y.len(), 0);
+    left(&entries, amplitudes, y)
+}
+
+fn left(entries: &[f64], amplitudes: &[f64], y: &[f64]) -> Vec<f64> {
     let mut left = y.to_vec();
-    for (column, amplitude) in (0..columns).zip(amplitudes) {
-        left.iter_mut().enumerate().for_each(|(n, value)| *value -= amplitude * matrix[(n, column)]);
+    for (column, amplitude) in entries.chunks_exact(y.len()).zip(amplitudes) {
+        left.iter_mut().zip(column).for_each(|(left, entry)| *left -= amplitude * entry);
     }
     left
 }
@@ -121,32 +134,37 @@ pub(super) fn residual(poles: &[Pole], amplitudes: &[f64], offset: bool, y: &[f6
 /// last column: its square is the curvature of the sum of squares.
 pub(super) fn projected(poles: &[Pole], amplitudes: &[f64], offset: bool, y: &[f64]) -> Mat<f64> {
     let order = order(poles);
-    let (mut matrix, columns) = basis(poles, offset, y.len(), order + 1);
-    let last = columns + order;
-    y.iter().enumerate().for_each(|(n, value)| matrix[(n, last)] = *value);
-    for (column, amplitude) in (0..columns).zip(amplitudes) {
-        (0..y.len()).for_each(|n| matrix[(n, last)] -= amplitude * matrix[(n, column)]);
-    }
+    let samples = y.len();
+    let (mut entries, columns) = basis(poles, offset, samples, order + 1);
+    let left = left(&entries, amplitudes, y);
     let (mut at, mut amplitude) = (0, amplitudes.iter().copied());
     for pole in poles {
         let mut next = || amplitude.next().unwrap_or(0.0);
         match pole {
             Pole::Pair { .. } => {
                 let (c, s) = (next(), next());
-                for n in 0..y.len() {
-                    let (time, cos, sin) = (n as f64, matrix[(n, at)], matrix[(n, at + 1)]);
-                    matrix[(n, columns + at)] = -time * (c * cos + s * sin);
-                    matrix[(n, columns + at + 1)] = time * (s * cos - c * sin);
+                let sum = |n: usize, entries: &[f64], c: f64, s: f64| {
+                    n as f64 * (c * entries[at + n] + s * entries[at + samples + n])
+                };
+                for n in 0..samples {
+                    entries.push(-sum(n, &entries, c, s));
                 }
+                for n in 0..samples {
+                    entries.push(sum(n, &entries, s, -c));
+                }
+                at += 2 * samples;
             }
             Pole::Real { .. } => {
                 let b = next();
-                (0..y.len()).for_each(|n| matrix[(n, columns + at)] = -(n as f64) * b * matrix[(n, at)]);
+                for n in 0..samples {
+                    entries.push(-(n as f64) * b * entries[at + n]);
+                }
+                at += samples;
             }
         }
-        at += pole.order();
     }
-    let r = matrix.qr().thin_R().to_owned();
+    entries.extend_from_slice(&left);
+    let r = triangle(&entries, samples);
     Mat::from_fn(order + 1, order + 1, |i, j| r[(columns + i, columns + j)])
 }
 

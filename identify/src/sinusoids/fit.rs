@@ -20,19 +20,18 @@ impl Fit {
         Some(Self { poles, amplitudes: values, square })
     }
 
-    /// The nearest minimum of the sum of squares; `floor` is a sum of squares that rounding alone may leave.
+    /// The nearest minimum of the sum of squares, or the way there after some `iterations`; `floor` is a sum of squares that rounding alone may leave.
     ///
     /// # References
     /// G. H. Golub and V. Pereyra, "Separable nonlinear least squares: the variable projection method and its
     /// applications", Inverse Problems 19 (2003), doi:10.1088/0266-5611/19/2/201. The Jacobian is Kaufman's.
-    pub(super) fn refined(mut self, offset: bool, y: &[f64], floor: f64) -> Self {
-        const ITERATIONS: usize = 40;
-        const REFUSALS: usize = 8;
+    pub(super) fn refined(mut self, offset: bool, y: &[f64], floor: f64, iterations: usize) -> Self {
+        const REFUSALS: usize = 6;
         if self.poles.is_empty() {
             return self;
         }
         let mut damping = 1e-4;
-        for _ in 0..ITERATIONS {
+        for _ in 0..iterations {
             let r = projected(&self.poles, &self.amplitudes, offset, y);
             let mut gain = None;
             for _ in 0..REFUSALS {

@@ -121,10 +121,11 @@ pub fn fit_damped_sinusoids(
     let tail = &values[values.len() - values.len() / 4..];
     let rest = if options.offset { tail.iter().map(|y| y / tail.len() as f64).sum() } else { 0.0 };
     let scale = values.iter().fold(0.0_f64, |scale, y| scale.max((y - rest).abs()));
-    if !scale.is_finite() {
+    // Poles that nearly coincide have amplitudes far above the signal: keep them in range.
+    if scale > 1e150 {
         return Err(SignalError::Number {
             quantity: "the range of the values",
-            range: "finite",
+            range: "at most 1e150",
             value: scale,
         }
         .into());
@@ -173,12 +174,12 @@ fn described(
         DampedSinusoids { modes: Vec::new(), decays: Vec::new(), offset: 0.0, fit: 0.0, noise: 0.0 };
     let mut at = 0;
     for pole in &found.poles {
-        let amplitude = |k: usize| scale * found.amplitudes.get(at + k).copied().unwrap_or(0.0);
+        let amplitude = |k: usize| found.amplitudes.get(at + k).copied().unwrap_or(0.0);
         match *pole {
             Pole::Real { decay } => result.decays.push(DecayEstimate {
                 rate: decay / period,
                 rate_deviation: covariance(at, at).sqrt() / period,
-                amplitude: amplitude(0),
+                amplitude: scale * amplitude(0),
             }),
             Pole::Pair { decay, turn } => {
                 let radius = Real::sqrt(decay * decay + turn * turn);
@@ -200,7 +201,7 @@ fn described(
                 if let Ok(mode) = Mode::new(radius / period, z.max(0.0)) {
                     result.modes.push(ModeEstimate {
                         mode,
-                        amplitude: Real::sqrt(c * c + s * s),
+                        amplitude: scale * Real::sqrt(c * c + s * s),
                         phase: Real::atan2(-s, c),
                         frequency_deviation: frequency / period,
                         damping_deviation: damping,

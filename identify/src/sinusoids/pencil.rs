@@ -42,7 +42,7 @@ pub(super) fn starts(y: &[f64], most: usize) -> Vec<Vec<Pole>> {
 /// gone after one.
 fn pole(z: Complex<f64>) -> Option<Pole> {
     let size = Real::sqrt(z.re * z.re + z.im * z.im);
-    if !(size > 0.05) || z.im < 0.0 {
+    if size.is_nan() || size <= 0.05 || z.im < 0.0 {
         return None;
     }
     let decay = -Real::ln(size);
@@ -72,7 +72,7 @@ fn subspace(y: &[f64], most: usize) -> Option<Mat<f64>> {
     let eigen = gram.self_adjoint_eigen(Side::Lower).ok()?;
     let (values, vectors) = (eigen.S().column_vector(), eigen.U());
     let largest = values[count - 1];
-    if !(largest > 0.0) {
+    if largest.is_nan() || largest <= 0.0 {
         return None;
     }
     // The square of the data has half their digits: below, directions are rounding.
