@@ -244,12 +244,9 @@ pub fn compare(
 
 /// Whether `value` is what was recorded as ours.
 fn as_recorded(expected: &Expectation, ours: &Value, value: &Value) -> bool {
-    let slack = Tolerance::Rel(crate::readme::SLACK);
     let bound = match expected.tolerance {
-        Some(tolerance @ (Tolerance::Abs(_) | Tolerance::Rel(_))) if expected.status == Status::Ours => {
-            tolerance
-        }
-        _ => slack,
+        Some(tolerance) if expected.status == Status::Ours => tolerance,
+        _ => Tolerance::Rel(crate::readme::SLACK),
     };
     ours == value || bound.holds(Some(ours), value)
 }

@@ -3,7 +3,8 @@
 use crate::experiment::Experiment;
 
 /// Every paper and study, in the order they are listed, run and shown.
-pub const EXPERIMENTS: &[Experiment] = &[crate::papers::acceleration_curves::EXPERIMENT];
+pub const EXPERIMENTS: &[Experiment] =
+    &[crate::papers::acceleration_curves::EXPERIMENT, crate::papers::delay_filter::EXPERIMENT];
 
 /// The experiments that `ids` name, in the order of `experiments`; all of them when `ids` is empty.
 ///

@@ -1,0 +1,93 @@
+//! What a response says of its vibration: the paper's reading, the exact one, and a fit.
+
+use anyhow::Result;
+use identify::{
+    ClassifiedResponse, DecrementError, LogarithmicDecrement, ModeEstimate, Peaks, ResponseClass,
+    ResponseClassifier, Signal, SinusoidOptions, fit_damped_sinusoids,
+};
+use profiles::Mode;
+
+use super::servo::Response;
+
+/// This file, from the root of the repository.
+pub(super) const FILE: &str = file!();
+
+/// A damping ratio and an undamped angular frequency in rad/s.
+pub(super) type Vibration = (f64, f64);
+
+/// What table 2 says of a response.
+pub(super) struct Reading {
+    pub(super) class: ResponseClass,
+    /// Into the band, s; `None` where the record ends before.
+    pub(super) settling: Option<f64>,
+    /// By the formulas (9), (10), (13), (14) as printed, for small damping.
+    pub(super) printed: Option<Vibration>,
+    /// By the exact forms from the same peaks.
+    pub(super) exact: Option<Vibration>,
+    /// The damping ratio by (13) from the first peak and the trough after it, whatever the class.
+    pub(super) half_cycle: Option<f64>,
+}
+
+/// Reads a move to `target`, whose settling band is `band`, a part of the move.
+pub(super) fn read(response: &Response, target: f64, band: f64) -> Result<Reading> {
+    let signal = Signal::sampled(&response.load, response.period)?;
+    let classified = classify(&response.load, response.period, target, THRESHOLD)?;
+    let first = classified.peaks.first();
+    let half_cycle = first.and_then(|peak| {
+        let troughs = Peaks::find(&signal, 0.0).ok()?.minima;
+        let next = troughs.into_iter().find(|trough| trough.time > peak.time)?;
+        Some(LogarithmicDecrement::half_cycle(*peak, next, target))
+    });
+    let decrement = match classified.class {
+        ResponseClass::C => LogarithmicDecrement::over_cycles(&classified.peaks, target, 1).ok(),
+        ResponseClass::B => half_cycle.and_then(Result::ok),
+        ResponseClass::A => None,
+    };
+    let printed = decrement.and_then(|d| {
+        let z = d.small_damping_ratio();
+        (z < 1.0).then(|| (z, d.damped_angular_frequency() / (1.0 - z * z).sqrt()))
+    });
+    Ok(Reading {
+        class: classified.class,
+        settling: signal.settling_time(target, band * target.abs()).ok(),
+        printed,
+        exact: decrement.map(|d| (d.damping_ratio(), d.angular_frequency())),
+        half_cycle: half_cycle.and_then(|decrement| match decrement {
+            Ok(decrement) => Some(decrement.small_damping_ratio()),
+            Err(DecrementError::Growing { damping_ratio, .. }) => Some(damping_ratio),
+            Err(_) => None,
+        }),
+    })
+}
+
+/// Peaks nearer to the target than this part of the move are dropped.
+const THRESHOLD: f64 = 1e-4;
+
+/// Every local maximum counts that is not nearer to the target than `threshold`, a part of the move.
+fn classify(angle: &[f64], period: f64, target: f64, threshold: f64) -> Result<ClassifiedResponse> {
+    let classifier = ResponseClassifier { threshold, prominence: 0.0, ..ResponseClassifier::default() };
+    Ok(classifier.classify(&Signal::sampled(angle, period)?, 0.0, target)?)
+}
+
+/// The class by other readings of a rule that the paper leaves open: of the motor's angle, with every peak however small,
+/// and with the peaks above 1 % of the move alone.
+pub(super) fn other_classes(response: &Response, target: f64) -> Result<[(&'static str, ResponseClass); 3]> {
+    let class = |angle: &[f64], threshold| -> Result<ResponseClass> {
+        Ok(classify(angle, response.period, target, threshold)?.class)
+    };
+    Ok([
+        ("motor", class(&response.motor(), THRESHOLD)?),
+        ("every-peak", class(&response.load, 0.0)?),
+        ("coarse", class(&response.load, 0.01)?),
+    ])
+}
+
+/// The vibration of the load by a fit of damped sinusoids to what follows `start` in s: the mode with the largest amplitude
+/// over decay rate, the area under its envelope; `None` where there is none.
+pub(super) fn fitted(response: &Response, start: f64) -> Option<Mode> {
+    let tail = response.load.get(response.index(start)..)?;
+    let options = SinusoidOptions { offset: true, ..SinusoidOptions::default() };
+    let decay = fit_damped_sinusoids(tail, response.period, &options).ok()?;
+    let area = |m: &ModeEstimate| m.amplitude / -m.mode.pole().re;
+    decay.modes.iter().max_by(|a, b| area(a).total_cmp(&area(b))).map(|estimate| estimate.mode)
+}
