@@ -89,6 +89,12 @@ impl Registers {
         self.read(30) != 0
     }
 
+    /// The next pulse of the stepper: timer ticks since the one before, and its direction.
+    pub fn pulse(&mut self, ticks: u32, forward: bool) {
+        self.write(31, ticks);
+        self.write(32, u32::from(forward));
+    }
+
     /// Tells the host that its request could not be served.
     pub fn report_fault(&mut self) {
         self.write(13, 1);

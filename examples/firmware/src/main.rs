@@ -1,4 +1,4 @@
-//! Two axes on a bare microcontroller: plan a move when asked, follow it at every tick.
+//! Three axes on a bare microcontroller: plan a move when asked, follow it at every tick.
 //!
 //! There is no allocator. The panic handler calls a function that does not exist, so that the program links only if
 //! no panic can be reached: an index that might be out of bounds anywhere below is a link error.
@@ -8,6 +8,7 @@
 
 mod board;
 mod servo;
+mod stepper;
 
 use board::Registers;
 use control::{AntiWindup, Feedforward, Pid, PidError, PidGains, PidInput, PidState};
@@ -69,6 +70,12 @@ fn serve(axis: &mut Axis, servo: &mut Servo, registers: &mut Registers) {
         }
         return;
     }
+    if law == 5 {
+        if stepper::step(distance, &limits, registers).is_none() {
+            registers.report_fault();
+        }
+        return;
+    }
     let planned = match law {
         0 => Trapezoid::rest_to_rest(distance, &limits).map(|p| axis.follow(p, registers)),
         1 => SCurve::rest_to_rest(distance, &limits)
@@ -76,6 +83,9 @@ fn serve(axis: &mut Axis, servo: &mut Servo, registers: &mut Registers) {
             .map(|p| axis.follow(p, registers)),
         2 => SnapLimited::rest_to_rest(distance, &limits).map(|p| axis.follow(p, registers)),
         3 => SCurve::velocity_ramp(0.0, velocity, &limits).map(|p| axis.follow(p, registers)),
+        6 => Trapezoid::velocity_ramp(0.0, velocity, &limits).map(|p| axis.follow(p, registers)),
+        7 => SnapLimited::velocity_ramp(0.0, velocity, &limits).map(|p| axis.follow(p, registers)),
+        8 => Cosine::velocity_ramp(0.0, velocity, &limits).map(|p| axis.follow(p, registers)),
         _ => Cosine::rest_to_rest(distance, &limits).map(|p| axis.follow(p, registers)),
     };
     if planned.is_err() {

@@ -78,13 +78,9 @@ impl Servo {
         if too_fast || residual_vibration(&shaped, mode) > TOLERANCE {
             return None;
         }
-        let mut tick = 0_u32;
-        while f64::from(tick) * PERIOD < shaped.duration() {
-            let Sample { position, velocity, acceleration, .. } = shaped.sample(f64::from(tick) * PERIOD);
-            let (position, velocity) = (position as f32, velocity as f32);
-            let acceleration = acceleration as f32;
-            self.tick(Sample { position, velocity, acceleration, ..Sample::default() }, registers);
-            tick += 1;
+        let mut cursor = Cursor::<_, f32>::new(shaped, PERIOD).ok()?;
+        while !cursor.is_finished() {
+            self.tick(cursor.tick(), registers);
         }
         Some(())
     }
