@@ -1,5 +1,6 @@
 //! One tick of 100 us of a servo, controller included: a synchronous motor on a load behind a spring under field-oriented
 //! control. Beside it the same written by hand, and the same with an adaptive solver of another library.
+#![expect(clippy::expect_used, reason = "a bench may fail loudly")]
 
 use std::f64::consts::PI;
 use std::hint::black_box;
