@@ -191,16 +191,15 @@ mod tests {
         }
     }
 
-    /// Above the current loop the poles are near those of the continuous loop with an ideal current.
+    /// What a fit finds in the tail of a small move is a pole of the linearised loop.
     #[test]
-    fn the_resonance_is_between_the_held_and_the_free_one() {
-        for system in &SYSTEMS {
+    fn the_vibration_that_is_seen_is_a_pole() {
+        for system in SYSTEMS.iter().filter(|system| system.vibration.is_some()) {
             let servo = Servo::new(system, &LOOPS).expect("servo");
-            let mechanics = *servo.drive.mechanics();
+            let response = servo.run(|_| 1e-3, 0.2, 8).expect("response");
+            let seen = crate::papers::delay_filter::reading::fitted(&response, 0.01).expect("a mode").pole();
             let poles = servo.poles().expect("poles");
-            let between =
-                |p: &&Complex<f64>| p.im > 0.9 * mechanics.anti_resonance() && p.im < mechanics.resonance();
-            assert!(poles.iter().any(|p| between(&p)), "{poles:?}");
+            assert!(poles.iter().any(|p| (p - seen).norm() < 1e-4 * seen.norm()), "{seen} of {poles:?}");
         }
     }
 }
