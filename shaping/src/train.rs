@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use profiles::{Complex, Interval, Mode, complex};
+use profiles::{Complex, Interval, Mode, Real, complex};
 
 use crate::error::TrainError;
 
@@ -134,7 +134,8 @@ impl<const N: usize> ImpulseTrain<N> {
         ImpulseTrain::new(product.get(..len).unwrap_or_default())
     }
 
-    /// The Laplace transform, `sum of A_k e^(-s t_k)`.
+    /// The Laplace transform, `sum of A_k e^(-s t_k)`: bounded for `Re s >= 0`. Far to the left of that it overflows, where
+    /// [`response`](Self::response) does not.
     #[must_use]
     pub fn transform(&self, s: Complex<f64>) -> Complex<f64> {
         self.sum(|time| -s * time)
@@ -160,18 +161,18 @@ impl<const N: usize> ImpulseTrain<N> {
     }
 
     /// [`residual`](Self::residual) of a mode whose frequency is off by the part `frequency_error` of it, with the same
-    /// damping ratio.
+    /// damping ratio. An error below -1, which is no frequency, counts as -1.
     #[must_use]
     pub fn sensitivity(&self, mode: Mode, frequency_error: f64) -> f64 {
-        complex::norm(self.response(mode.pole() * (1.0 + frequency_error)))
+        complex::norm(self.response(mode.pole() * Real::max(1.0 + frequency_error, 0.0)))
     }
 
     /// The insensitivity of the train: the range of frequency errors around zero, as parts of the frequency of `mode`,
     /// in which no more than `tolerance` of the vibration of a step is left.
     ///
-    /// The lower end is at least -1, where the frequency is zero. `None` if the train leaves more than `tolerance` of
-    /// the mode itself, or the tolerance is NaN. The upper end is infinite if nothing above it, up to a hundred turns of
-    /// the last impulse, leaves more.
+    /// A hundred turns of the last impulse are searched either way. The lower end is at least -1, where the frequency is
+    /// zero, and the end of the search if nothing up to there leaves more; the upper end is then infinite. `None` if the
+    /// train leaves more than `tolerance` of the mode itself, or the tolerance is NaN.
     ///
     /// ```
     /// use profiles::Mode;
@@ -203,8 +204,10 @@ impl<const N: usize> ImpulseTrain<N> {
             }
             None
         };
-        let upper = end(1.0, 100.0 / turns.max(1.0)).unwrap_or(f64::INFINITY);
-        Some(Interval::new(end(-1.0, 1.0).unwrap_or(-1.0), upper))
+        let searched = 100.0 / turns.max(1.0);
+        let lowest = searched.min(1.0);
+        let upper = end(1.0, searched).unwrap_or(f64::INFINITY);
+        Some(Interval::new(end(-1.0, lowest).unwrap_or(-lowest), upper))
     }
 
     fn sum(&self, exponent: impl Fn(f64) -> Complex<f64>) -> Complex<f64> {

@@ -102,6 +102,13 @@ fn the_width_of_the_band_is_known_for_undamped_modes() {
     // Everything, nothing, and a frequency of zero.
     let all = zv.insensitivity(mode, 1.0).expect("band");
     assert!(all.upper.is_infinite() && (all.lower + 1.0).abs() < 1e-15);
+    // A train of a great many turns is searched as far as it goes, and no further.
+    let long = ImpulseTrain::<2>::new(&[Impulse::new(0.0, 0.5), Impulse::new(1e4, 0.5)]).expect("train");
+    let fast = Mode::new(1e4, 0.0).expect("mode");
+    let searched = 100.0 * std::f64::consts::TAU / 1e8;
+    let band = long.insensitivity(fast, 1.0).expect("band");
+    assert!((band.lower + searched).abs() < 1e-12 && band.upper.is_infinite(), "{band:?}");
+    assert!((zv.sensitivity(mode, -20.0) - 1.0).abs() < 1e-15);
     let detuned = Mode::new(110.0, 0.0).expect("mode");
     assert_eq!(zv.insensitivity(detuned, 0.05), None);
     assert_eq!(zv.insensitivity(mode, f64::NAN), None);
