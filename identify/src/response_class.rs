@@ -1,6 +1,7 @@
 //! The kind of a step response: without overshoot, with one, or ringing.
 
-use crate::error::SignalError;
+use crate::decrement::LogarithmicDecrement;
+use crate::error::{DecrementError, SignalError};
 use crate::peaks::{Peak, Peaks};
 use crate::signal::{Signal, length, not_negative};
 
@@ -65,6 +66,61 @@ pub struct ClassifiedResponse {
     pub decay_changes: Vec<f64>,
 }
 
+impl ClassifiedResponse {
+    /// The decrement of a response to `target`, as its class tells where to read it: from the first two peaks of class C,
+    /// from the first peak and the trough after it of class B, none of class A. `None` too where the trough is missing.
+    ///
+    /// # Errors
+    /// A target that is not finite, and peaks that do not decay.
+    ///
+    /// # References
+    /// J. Wu, H. Zhang, "Residual vibration suppression of servo system based on time delay filter", Journal of Mechanical
+    /// and Electrical Engineering 36 (2019) 919-924, section 3.3, doi:10.3969/j.issn.1001-4551.2019.09.007 (in Chinese).
+    pub fn decrement(
+        &self,
+        response: &Signal<'_>,
+        target: f64,
+    ) -> Result<Option<LogarithmicDecrement>, DecrementError> {
+        match self.class {
+            ResponseClass::A => Ok(None),
+            ResponseClass::B => self.half_cycle(response, target),
+            ResponseClass::C => LogarithmicDecrement::over_cycles(&self.upright(target), target, 1).map(Some),
+        }
+    }
+
+    /// The decrement from the first peak and the trough after it, whatever the class; `None` where there is no such pair.
+    ///
+    /// # Errors
+    /// A target that is not finite, and peaks that do not decay.
+    pub fn half_cycle(
+        &self,
+        response: &Signal<'_>,
+        target: f64,
+    ) -> Result<Option<LogarithmicDecrement>, DecrementError> {
+        let (Some(&peak), Ok(found)) = (self.peaks.first(), Peaks::find(response, 0.0)) else {
+            return Ok(None);
+        };
+        let down = peak.value < target;
+        let troughs = if down { found.maxima } else { found.minima };
+        let Some(trough) = troughs.into_iter().find(|trough| trough.time > peak.time) else {
+            return Ok(None);
+        };
+        let turned = |peak: Peak| if down { mirrored(peak, target) } else { peak };
+        LogarithmicDecrement::half_cycle(turned(peak), turned(trough), target).map(Some)
+    }
+
+    /// The peaks as maxima, also those of a move downwards.
+    fn upright(&self, target: f64) -> Vec<Peak> {
+        let turned = |peak: &Peak| if peak.value < target { mirrored(*peak, target) } else { *peak };
+        self.peaks.iter().map(turned).collect()
+    }
+}
+
+/// The peak on the other side of the target.
+fn mirrored(peak: Peak, target: f64) -> Peak {
+    Peak { value: 2.0 * target - peak.value, ..peak }
+}
+
 impl ResponseClassifier {
     /// The class of a response of a move from `from` to `target`.
     ///
@@ -100,5 +156,49 @@ impl ResponseClassifier {
             ResponseClass::B
         };
         Ok(ClassifiedResponse { class, peaks, decays, decay_changes })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use profiles::Mode;
+
+    const PERIOD: f64 = 1e-4;
+
+    /// A step of a second-order system with a zero, up or down: it overshoots and swings about the target.
+    fn response(mode: Mode, from: f64, target: f64) -> Vec<f64> {
+        let pole = mode.pole();
+        let swing = |t: f64| (pole.re * t).exp() * (pole.im * t).cos();
+        (0..4000).map(|n| target + (from - target) * swing(f64::from(n) * PERIOD)).collect()
+    }
+
+    #[test]
+    fn the_decrement_is_read_where_the_class_says_whichever_way_the_move_goes() {
+        for (damping, class) in [(0.05, ResponseClass::C), (0.75, ResponseClass::B)] {
+            let mode = Mode::new(300.0, damping).expect("valid");
+            for (from, target) in [(0.0, 2.0), (1.0, -4.0)] {
+                let values = response(mode, from, target);
+                let signal = Signal::sampled(&values, PERIOD).expect("valid");
+                // At a damping of 3/4 a peak is 8e-4 of the one before: two are left, and no change of a ratio.
+                let found = ResponseClassifier::default().classify(&signal, from, target).expect("valid");
+                assert_eq!(found.class, class);
+                let decrement = found.decrement(&signal, target).expect("decays").expect("a reading");
+                // The parabola through three samples, 209 or more to a period.
+                assert!((decrement.damping_ratio() - damping).abs() < 1e-4, "{decrement:?}");
+                assert!((decrement.angular_frequency() / 300.0 - 1.0).abs() < 1e-3, "{decrement:?}");
+                let half = found.half_cycle(&signal, target).expect("decays").expect("a trough");
+                assert!((half.damping_ratio() - damping).abs() < 1e-4, "{half:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn class_a_has_no_decrement() {
+        let values: Vec<f64> = (0..500).map(|n| 1.0 - (-f64::from(n) * 0.05).exp()).collect();
+        let signal = Signal::sampled(&values, PERIOD).expect("valid");
+        let found = ResponseClassifier::default().classify(&signal, 0.0, 1.0).expect("valid");
+        assert_eq!((found.class, found.decrement(&signal, 1.0)), (ResponseClass::A, Ok(None)));
+        assert_eq!(found.half_cycle(&signal, 1.0), Ok(None));
     }
 }

@@ -80,6 +80,27 @@ impl DampedSinusoids {
     pub fn order(&self) -> usize {
         2 * self.modes.len() + self.decays.len()
     }
+
+    /// The mode that swings longest for its size: the one with the largest area under its envelope, amplitude over decay
+    /// rate. The mode with the largest amplitude may be gone after half a swing.
+    ///
+    /// ```
+    /// use identify::{SinusoidOptions, fit_damped_sinusoids};
+    ///
+    /// let decay = |a: f64, s: f64, w: f64| move |t: f64| a * (-s * t).exp() * (w * t).cos();
+    /// let (short, long) = (decay(3.0, 160.0, 200.0), decay(1.0, 30.0, 470.0));
+    /// let values: Vec<f64> = (0..2000).map(|n| f64::from(n) * 1e-4).map(|t| short(t) + long(t)).collect();
+    /// let found = fit_damped_sinusoids(&values, 1e-4, &SinusoidOptions::default())?;
+    /// assert!((found.modes[0].amplitude - 3.0).abs() < 1e-9);
+    /// let lasting = found.lasting_mode().ok_or("no mode")?;
+    /// assert!((lasting.mode.damped_angular_frequency() - 470.0).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn lasting_mode(&self) -> Option<&ModeEstimate> {
+        let area = |estimate: &ModeEstimate| estimate.amplitude / -estimate.mode.pole().re;
+        self.modes.iter().max_by(|a, b| area(a).total_cmp(&area(b)))
+    }
 }
 
 /// Fits damped sinusoids to a free decay sampled every `period` s.

@@ -4,14 +4,14 @@ use anyhow::{Context as _, Result};
 use identify::Signal;
 use plants::nalgebra::{self, vector};
 use plants::{HeldLinear, LowPass};
-use profiles::{Mode, Profile, Trapezoid};
+use profiles::{Profile, Trapezoid};
 use shaping::{DelayFilter, Shaped};
 
-use super::reading::fitted;
+use super::reading::nearest;
 use super::search::Found;
 use super::servo::{Response, Servo};
 use super::setup::{CONTROL_RATE, HORIZON, LOW_PASS, SYSTEMS};
-use super::{late, move_and_target, nearest, position};
+use super::{late, move_and_target, position};
 use crate::experiment::Outcome;
 use crate::figure::{Figure, Panel, Quantity, Role};
 
@@ -52,14 +52,13 @@ pub(super) fn figures(found: &Found, outcome: &mut Outcome) -> Result<()> {
         let system = &SYSTEMS[k];
         let servo = Servo::new(system, &found.loops)?;
         let plain = servo.run(|t| command.sample(t).position, HORIZON, 1)?;
-        let mode = fitted(&plain, command.duration()).context("no mode")?;
-        let pole = nearest(&servo.poles()?, mode).context("no pole")?;
+        let printed = system.vibration.context("a mode")?;
+        let true_mode = nearest(&servo.modes()?, printed).context("no mode")?;
         let shaped = |filter: DelayFilter| {
             let command = Shaped::new(command, *filter.train());
             servo.run(move |t| command.sample(t).position, HORIZON, 1)
         };
         let own = shaped(filter(k)?)?;
-        let true_mode = Mode::new(pole.norm(), -pole.re / pole.norm())?;
         let better = shaped(DelayFilter::positive(true_mode, system.filter_delay.context("a delay")?)?)?;
         let mut lines = vec![
             Quieted { id: "none", name: "no filter", role: Role::Reference, response: plain },
@@ -73,7 +72,7 @@ pub(super) fn figures(found: &Found, outcome: &mut Outcome) -> Result<()> {
             lines.push(Quieted { id: "low-pass", name: "low-pass", role: Role::Second, response });
         }
         lines.push(Quieted {
-            id: "better",
+            id: "true-pole",
             name: "filter on the true pole",
             role: Role::Third,
             response: better,
@@ -91,7 +90,7 @@ pub(super) fn figures(found: &Found, outcome: &mut Outcome) -> Result<()> {
         }
         if figure == "fig5" {
             let mut order: Vec<_> =
-                lines.iter().filter(|l| l.id != "better").map(|l| (twist(&l.response), l.id)).collect();
+                lines.iter().filter(|l| l.id != "true-pole").map(|l| (twist(&l.response), l.id)).collect();
             order.sort_by(|a, b| a.0.total_cmp(&b.0));
             let order: Vec<_> = order.iter().map(|(_, id)| *id).collect();
             outcome.measure("fig5/order", order.join(" < "));

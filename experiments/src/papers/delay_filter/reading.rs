@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use identify::{
-    ClassifiedResponse, DecrementError, LogarithmicDecrement, ModeEstimate, Peaks, ResponseClass,
-    ResponseClassifier, Signal, SinusoidOptions, fit_damped_sinusoids,
+    ClassifiedResponse, DecrementError, ResponseClass, ResponseClassifier, Signal, SinusoidOptions,
+    fit_damped_sinusoids,
 };
 use profiles::Mode;
 
@@ -32,17 +32,7 @@ pub(super) struct Reading {
 pub(super) fn read(response: &Response, target: f64, band: f64) -> Result<Reading> {
     let signal = Signal::sampled(&response.load, response.period)?;
     let classified = classify(&response.load, response.period, target, THRESHOLD)?;
-    let first = classified.peaks.first();
-    let half_cycle = first.and_then(|peak| {
-        let troughs = Peaks::find(&signal, 0.0).ok()?.minima;
-        let next = troughs.into_iter().find(|trough| trough.time > peak.time)?;
-        Some(LogarithmicDecrement::half_cycle(*peak, next, target))
-    });
-    let decrement = match classified.class {
-        ResponseClass::C => LogarithmicDecrement::over_cycles(&classified.peaks, target, 1).ok(),
-        ResponseClass::B => half_cycle.and_then(Result::ok),
-        ResponseClass::A => None,
-    };
+    let decrement = classified.decrement(&signal, target).ok().flatten();
     let printed = decrement.and_then(|d| {
         let z = d.small_damping_ratio();
         (z < 1.0).then(|| (z, d.damped_angular_frequency() / (1.0 - z * z).sqrt()))
@@ -52,11 +42,11 @@ pub(super) fn read(response: &Response, target: f64, band: f64) -> Result<Readin
         settling: signal.settling_time(target, band * target.abs()).ok(),
         printed,
         exact: decrement.map(|d| (d.damping_ratio(), d.angular_frequency())),
-        half_cycle: half_cycle.and_then(|decrement| match decrement {
-            Ok(decrement) => Some(decrement.small_damping_ratio()),
+        half_cycle: match classified.half_cycle(&signal, target) {
+            Ok(decrement) => decrement.map(|decrement| decrement.small_damping_ratio()),
             Err(DecrementError::Growing { damping_ratio, .. }) => Some(damping_ratio),
             Err(_) => None,
-        }),
+        },
     })
 }
 
@@ -82,12 +72,21 @@ pub(super) fn other_classes(response: &Response, target: f64) -> Result<[(&'stat
     ])
 }
 
-/// The vibration of the load by a fit of damped sinusoids to what follows `start` in s: the mode with the largest amplitude
-/// over decay rate, the area under its envelope; `None` where there is none.
-pub(super) fn fitted(response: &Response, start: f64) -> Option<Mode> {
-    let tail = response.load.get(response.index(start)..)?;
-    let options = SinusoidOptions { offset: true, ..SinusoidOptions::default() };
-    let decay = fit_damped_sinusoids(tail, response.period, &options).ok()?;
-    let area = |m: &ModeEstimate| m.amplitude / -m.mode.pole().re;
-    decay.modes.iter().max_by(|a, b| area(a).total_cmp(&area(b))).map(|estimate| estimate.mode)
+/// The modes of a fit of damped sinusoids to what follows `start` in s, the one that swings longest for its size first; none
+/// where there is none.
+pub(super) fn fitted(response: &Response, start: f64) -> Vec<Mode> {
+    let tail = response.load.get(response.index(start)..).unwrap_or_default();
+    let Ok(decay) = fit_damped_sinusoids(tail, response.period, &SinusoidOptions::default()) else {
+        return Vec::new();
+    };
+    let lasting = decay.lasting_mode().map(|estimate| estimate.mode);
+    let others = decay.modes.iter().map(|estimate| estimate.mode).filter(|mode| Some(*mode) != lasting);
+    lasting.into_iter().chain(others).collect()
+}
+
+/// Of some modes the one whose pole is nearest to that of a vibration.
+pub(super) fn nearest(modes: &[Mode], (damping, frequency): Vibration) -> Option<Mode> {
+    let wanted = Mode::new(frequency, damping).ok()?.pole();
+    let distance = |mode: &Mode| (mode.pole() - wanted).norm();
+    modes.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

@@ -14,7 +14,7 @@ use profiles::{Profile, Real};
 /// This file, from the root of the repository.
 pub(super) const FILE: &str = file!();
 
-/// What a damping ratio, a frequency or a settling time may be off by, in parts, to cost one.
+/// What a damping ratio, a frequency or a settling time may be off by, in parts, to cost the logarithm of two.
 const DAMPING: f64 = 0.1;
 const FREQUENCY: f64 = 0.05;
 const SETTLING: f64 = 0.1;
@@ -56,9 +56,10 @@ fn loops(unknowns: &[f64]) -> Option<(LoopParameters, f64)> {
     Some((loops, Real::exp(band)))
 }
 
-/// How far a reading is from table 2.
+/// How far a reading is from table 2: `ln(1 + d^2)` for each number that is `d` slacks off, so that one that no loop meets does
+/// not outweigh those that it could.
 fn distance(system: &System, reading: &Reading) -> f64 {
-    let part = |ours: f64, printed: f64, slack: f64| ((ours / printed - 1.0) / slack).powi(2);
+    let part = |ours: f64, printed: f64, slack: f64| Real::ln(1.0 + ((ours / printed - 1.0) / slack).powi(2));
     let mut cost = reading.settling.map_or(CLASS, |settling| part(settling, system.settling, SETTLING));
     if reading.class != system.class {
         cost += CLASS;
