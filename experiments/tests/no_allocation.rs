@@ -1,5 +1,5 @@
 //! A tick allocates nothing: every piece of a control tick and of a simulated tick, under a counting allocator.
-#![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
+#![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
 
 use std::hint::black_box;
 

@@ -85,7 +85,7 @@ impl<F: Real> Pid<F> {
     ///
     /// # References
     /// K. J. Åström, R. M. Murray, *Feedback Systems*, 2nd ed., Princeton University Press, 2021, chapter 11.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn update(&self, state: &mut PidState<F>, input: PidInput<F>) -> PidOutput<F> {
         let PidInput { setpoint, measurement, feedforward, realised } = input;

@@ -110,7 +110,7 @@ impl<P> Rk4<P> {
 }
 
 impl<const N: usize, const M: usize, P: Plant<N, M>> Stepper<N, M> for Rk4<P> {
-    #[inline]
+    #[inline(always)]
     fn advance(
         &mut self,
         state: &SVector<f64, N>,
@@ -119,15 +119,29 @@ impl<const N: usize, const M: usize, P: Plant<N, M>> Stepper<N, M> for Rk4<P> {
     ) -> Result<SVector<f64, N>, StepError> {
         check(interval)?;
         let substeps = self.count(interval)?;
-        let mut derivative = |_: f64, x: &SVector<f64, N>| self.plant.derivative(x, input);
-        // A single step needs no division.
-        let step = if substeps == 1 { interval } else { interval / f64::from(substeps) };
-        Ok((0..substeps).fold(*state, |x, _| rk4_step(&mut derivative, 0.0, &x, step)))
+        // A single step needs neither a division nor a loop around it, which would keep the state in memory.
+        if substeps == 1 {
+            return Ok(rk4_step(&mut |_, x| self.plant.derivative(x, input), 0.0, state, interval));
+        }
+        Ok(several(&self.plant, state, input, interval, substeps))
     }
 }
 
+/// An interval in equal substeps.
+#[inline(never)]
+fn several<const N: usize, const M: usize>(
+    plant: &impl Plant<N, M>,
+    state: &SVector<f64, N>,
+    input: &SVector<f64, M>,
+    interval: f64,
+    substeps: u32,
+) -> SVector<f64, N> {
+    let step = interval / f64::from(substeps);
+    (0..substeps).fold(*state, |x, _| rk4_step(&mut |_, x| plant.derivative(x, input), 0.0, &x, step))
+}
+
 /// One step of the classical method for `x' = f(t, x)`.
-#[inline]
+#[inline(always)]
 pub(super) fn rk4_step<const N: usize>(
     f: &mut impl FnMut(f64, &SVector<f64, N>) -> SVector<f64, N>,
     t: f64,

@@ -68,7 +68,7 @@ impl<const N: usize, const M: usize, L: HeldLinear<N, M>> ZeroOrderHold<N, M, L>
 }
 
 impl<const N: usize, const M: usize, L: HeldLinear<N, M>> Stepper<N, M> for ZeroOrderHold<N, M, L> {
-    #[inline]
+    #[inline(always)]
     fn advance(
         &mut self,
         state: &SVector<f64, N>,

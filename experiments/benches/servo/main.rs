@@ -1,23 +1,25 @@
 //! One tick of 100 us of a servo, controller included: a synchronous motor on a load behind a spring under field-oriented
 //! control. Beside it the same written by hand, and the same with an adaptive solver of another library.
-#![expect(clippy::expect_used, reason = "a bench may fail loudly")]
+#![expect(clippy::expect_used, reason = "a bench without its servo may fail loudly")]
+
+mod by_hand;
+mod exact;
 
 use std::f64::consts::PI;
 use std::hint::black_box;
 
 use control::{
     Cascade, CurrentLoop, Dq, Feedforward, FieldOriented, FieldOrientedInput, FieldOrientedState, PiGains,
-    Pid, PidGains, PidInput, PidState, Windings,
+    Windings,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKTS54};
 use plants::nalgebra::{self, SVector, vector};
-use plants::{
-    Clock, ControlTick, PmsmDrive, PmsmWindings, Rk4, Simulation, StepError, Stepper, TwoInertia,
-    ZeroOrderHold,
-};
+use plants::{Clock, ControlTick, PmsmDrive, PmsmWindings, Rk4, Simulation, StepError, Stepper, TwoInertia};
 use profiles::Sample;
+
+use by_hand::ByHand;
 
 const PERIOD: f64 = 1e-4; // s
 const TICKS: u32 = 10_000;
@@ -113,127 +115,11 @@ impl Ours {
         Self { control: control(), memory: FieldOrientedState::new(), stepper, state: SVector::zeros() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn tick(&mut self, reference: &Sample) -> Result<(), StepError> {
         let input = command(&self.control, &mut self.memory, reference, &self.state);
         self.state = self.stepper.advance(&self.state, &input, PERIOD)?;
         Ok(())
-    }
-}
-
-/// The same by hand: plain numbers, nothing checked, clamped integrals.
-#[derive(Clone, Default)]
-struct ByHand {
-    r: f64,
-    l: f64,
-    per_l: f64,
-    flux: f64,
-    pairs: f64,
-    torque_constant: f64,
-    stiffness: f64,
-    friction: f64,
-    spring_damping: f64,
-    per_rotor: f64,
-    per_load: f64,
-    position_gain: f64,
-    velocity_gain: f64,
-    velocity_step: f64,
-    acceleration_gain: f64,
-    current_gain: f64,
-    current_reset: f64,
-    current_limit: f64,
-    voltage_limit: f64,
-    velocity_integral: f64,
-    d_integral: f64,
-    q_integral: f64,
-    // Voltage less decoupling of the tick before.
-    d_drop: f64,
-    q_drop: f64,
-    state: [f64; 6],
-}
-
-impl ByHand {
-    fn new() -> Self {
-        Self {
-            r: RESISTANCE,
-            l: INDUCTANCE,
-            per_l: 1.0 / INDUCTANCE,
-            flux: FLUX,
-            pairs: f64::from(POLE_PAIRS),
-            torque_constant: TORQUE_CONSTANT,
-            stiffness: STIFFNESS,
-            friction: FRICTION,
-            spring_damping: SPRING_DAMPING,
-            per_rotor: 1.0 / ROTOR,
-            per_load: 1.0 / LOAD,
-            position_gain: POSITION_GAIN,
-            velocity_gain: VELOCITY_GAIN,
-            velocity_step: VELOCITY_INTEGRAL * PERIOD,
-            acceleration_gain: ACCELERATION_GAIN,
-            current_gain: INDUCTANCE * BANDWIDTH,
-            current_reset: 1.0 - (-PERIOD * RESISTANCE / INDUCTANCE).exp(),
-            current_limit: CURRENT_LIMIT,
-            voltage_limit: VOLTAGE_LIMIT,
-            ..Self::default()
-        }
-    }
-
-    #[inline(always)]
-    fn voltage(&mut self, reference: &Sample) -> [f64; 2] {
-        let [i_d, i_q, angle, speed, ..] = self.state;
-        let wanted = self.position_gain * (reference.position - angle) + reference.velocity;
-        let error = wanted - speed;
-        let limit = self.current_limit;
-        self.velocity_integral = (self.velocity_integral + self.velocity_step * error).clamp(-limit, limit);
-        let current = self.velocity_gain * error
-            + self.velocity_integral
-            + self.acceleration_gain * reference.acceleration;
-        let current = current.clamp(-limit, limit);
-
-        let w = self.pairs * speed;
-        let (d_coupling, q_coupling) = (-w * self.l * i_q, w * (self.l * i_d + self.flux));
-        self.d_integral += self.current_reset * (self.d_drop - self.d_integral);
-        self.q_integral += self.current_reset * (self.q_drop - self.q_integral);
-        let mut d = d_coupling + self.d_integral - self.current_gain * i_d;
-        let mut q = q_coupling + self.q_integral + self.current_gain * (current - i_q);
-        let square = d * d + q * q;
-        if square > self.voltage_limit * self.voltage_limit {
-            let scale = self.voltage_limit / square.sqrt();
-            (d, q) = (scale * d, scale * q);
-        }
-        (self.d_drop, self.q_drop) = (d - d_coupling, q - q_coupling);
-        [d, q]
-    }
-
-    #[inline(always)]
-    fn derivative(
-        &self,
-        [i_d, i_q, angle, speed, load_angle, load_speed]: [f64; 6],
-        [d, q]: [f64; 2],
-    ) -> [f64; 6] {
-        let w = self.pairs * speed;
-        let spring = self.stiffness * (angle - load_angle) + self.spring_damping * (speed - load_speed);
-        [
-            (d - self.r * i_d + w * self.l * i_q) * self.per_l,
-            (q - self.r * i_q - w * (self.l * i_d + self.flux)) * self.per_l,
-            speed,
-            (self.torque_constant * i_q - spring - self.friction * speed) * self.per_rotor,
-            load_speed,
-            spring * self.per_load,
-        ]
-    }
-
-    #[inline(always)]
-    fn tick(&mut self, reference: &Sample) {
-        const H: f64 = PERIOD;
-        let v = self.voltage(reference);
-        let x = self.state;
-        let along = |k: [f64; 6], h: f64| std::array::from_fn(|i| x[i] + h * k[i]);
-        let k1 = self.derivative(x, v);
-        let k2 = self.derivative(along(k1, 0.5 * H), v);
-        let k3 = self.derivative(along(k2, 0.5 * H), v);
-        let k4 = self.derivative(along(k3, H), v);
-        self.state = std::array::from_fn(|i| x[i] + H / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
     }
 }
 
@@ -256,7 +142,7 @@ impl Adaptive {
         Self { control: control(), memory, plant: ByHand::new(), settings, state }
     }
 
-    #[inline]
+    #[inline(always)]
     fn tick(&mut self, reference: &Sample) -> Result<(), numeris::ode::OdeError> {
         let input = command(&self.control, &mut self.memory, reference, &self.state);
         let derivative = |_: f64, x: &Vector<f64, 6>| {
@@ -329,7 +215,7 @@ fn servo_tick(criterion: &mut Criterion) {
             });
         });
     }
-    let clock = Clock::from_period(1, 10_000).expect("valid");
+    let clock = Clock::from_frequency(10_000).expect("valid");
     let simulation = Simulation::new(clock, u64::from(TICKS)).saturation(ours.stepper.plant().saturation());
     group.bench_function("one RK4 step, simulation recorded every tick", |b| {
         let mut stepper = ours.stepper.clone();
@@ -351,46 +237,5 @@ fn servo_tick(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// The linear axis under a torque held over a tick, exactly, alone and under a PI controller of its speed.
-fn linear_tick(criterion: &mut Criterion) {
-    let axis = axis();
-    let discrete = axis.state_space().and_then(|system| system.discretise(PERIOD)).expect("valid");
-    let gains =
-        PidGains { kp: TORQUE_CONSTANT * VELOCITY_GAIN, ki: TORQUE_CONSTANT * VELOCITY_INTEGRAL, kd: 0.0 };
-    let pi = Pid::new(gains, PERIOD).expect("valid");
-    let torque = vector![0.1, 0.0];
-    let start = vector![0.01, 0.0, 0.0, 0.0];
-    let mut group = criterion.benchmark_group("exact tick");
-    group.throughput(Throughput::Elements(u64::from(TICKS)));
-    group.bench_function("discrete state space", |b| {
-        b.iter(|| (0..TICKS).fold(start, |x, _| discrete.step(&x, black_box(&torque))));
-    });
-    let mut stepper = ZeroOrderHold::new(axis);
-    group.bench_function("zero-order hold", |b| {
-        b.iter(|| (0..TICKS).try_fold(start, |x, _| stepper.advance(&x, black_box(&torque), PERIOD)));
-    });
-    group.bench_function("discrete state space, velocity PI", |b| {
-        b.iter(|| {
-            let (mut memory, mut x) = (PidState::new(), black_box(start));
-            for _ in 0..TICKS {
-                let torque = pi.update(&mut memory, PidInput::new(10.0, x[1])).output;
-                x = discrete.step(&x, &vector![torque, 0.0]);
-            }
-            x
-        });
-    });
-    group.bench_function("zero-order hold, velocity PI", |b| {
-        b.iter(|| {
-            let (mut memory, mut x) = (PidState::new(), black_box(start));
-            for _ in 0..TICKS {
-                let torque = pi.update(&mut memory, PidInput::new(10.0, x[1])).output;
-                x = stepper.advance(&x, &vector![torque, 0.0], PERIOD)?;
-            }
-            Ok::<_, StepError>(x)
-        });
-    });
-    group.finish();
-}
-
-criterion_group!(benches, servo_tick, linear_tick);
+criterion_group!(benches, servo_tick, exact::exact_tick);
 criterion_main!(benches);
