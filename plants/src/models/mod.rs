@@ -8,6 +8,7 @@ mod low_pass;
 mod plant;
 mod pmsm;
 mod state_space;
+mod transfer_function;
 mod two_inertia;
 
 pub use discrete::DiscreteStateSpace;
@@ -16,6 +17,7 @@ pub use low_pass::LowPass;
 pub use plant::Plant;
 pub use pmsm::{Pmsm, PmsmDrive, PmsmWindings};
 pub use state_space::StateSpace;
+pub use transfer_function::{HeldTransferFunction, TransferFunction};
 pub use two_inertia::TwoInertia;
 
 pub(crate) use state_space::finite;
