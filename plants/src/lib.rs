@@ -17,8 +17,8 @@ pub use linear::{
     spectral_radius, zero_order_hold,
 };
 pub use models::{
-    DiscreteStateSpace, HeldTransferFunction, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive, PmsmWindings,
-    StateSpace, TransferFunction, TwoInertia,
+    BeltDrive, DiscreteStateSpace, HeldTransferFunction, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive,
+    PmsmWindings, StateSpace, TransferFunction, TwoInertia,
 };
 pub use signals::{DelayedHold, Disturbance, Encoder, GaussianNoise, Noise, TransportDelay, UniformNoise};
 pub use simulation::{Channel, Clock, ControlTick, Outcome, Probe, Recording, Saturation, Simulation, Task};

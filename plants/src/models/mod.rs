@@ -1,5 +1,6 @@
 //! Continuous models of plants.
 
+mod belt_drive;
 mod check;
 mod decay;
 mod discrete;
@@ -11,6 +12,7 @@ mod state_space;
 mod transfer_function;
 mod two_inertia;
 
+pub use belt_drive::BeltDrive;
 pub use discrete::DiscreteStateSpace;
 pub use linear_motor::LinearMotor;
 pub use low_pass::LowPass;
