@@ -56,10 +56,16 @@ fn zeros(
     if size == 0 {
         return Ok((Vec::new(), d));
     }
-    // In units in which all matrices are of the size of one, rounding is told from what is not zero.
-    let scale = balance_parlett_reinsch(&mut a);
-    b.component_div_assign(&scale);
-    c.component_mul_assign(&scale);
+    // Balanced with input and output as one more state, so that what passes on from state to state is of one size,
+    // and in units in which the matrices are of the size of one: rounding is told from what is not zero.
+    let mut whole = DMatrix::zeros(size + 1, size + 1);
+    whole.view_mut((0, 0), (size, size)).copy_from(&a);
+    whole.view_mut((0, size), (size, 1)).copy_from(&b);
+    whole.view_mut((size, 0), (1, size)).copy_from(&c.transpose());
+    balance_parlett_reinsch(&mut whole);
+    a.copy_from(&whole.view((0, 0), (size, size)));
+    b.copy_from(&whole.view((0, size), (size, 1)));
+    c.copy_from(&whole.view((size, 0), (1, size)).transpose());
     let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
     let (rate, drive, sight) = (or_one(a.amax()), or_one(b.amax()), or_one(c.amax()));
     a /= rate;
@@ -67,7 +73,8 @@ fn zeros(
     c /= sight;
     let mut direct = d / sight / drive * rate;
     let mut gain = sight * (drive / rate);
-    // The first D is as it was given, the later ones are sums of so many terms.
+    // The first D is as it was given; the later ones are sums of so many terms, in a direction that is known the less
+    // the smaller the row is that it comes from.
     let (mut negligible, rounding) = (0.0, 16.0 * size as f64 * f64::EPSILON);
     while direct.abs() <= negligible {
         let n = a.nrows();
@@ -75,7 +82,7 @@ fn zeros(
         if n == 0 || norm <= negligible {
             return zero;
         }
-        negligible = rounding;
+        negligible = rounding + negligible / norm;
         // Reflected so that the output sees the last state alone: an output of zero holds that state, and what moves
         // it becomes the next output.
         let last = n - 1;
