@@ -57,6 +57,54 @@ pub enum ModelError {
         /// Imaginary part of the point, rad/s.
         im: f64,
     },
+    /// A coefficient of a polynomial that is not finite, or a highest one that is zero.
+    #[error(
+        "the coefficient of power {power} must be finite, and not zero where it is the highest, got {value}"
+    )]
+    Coefficient {
+        /// The power it belongs to.
+        power: usize,
+        /// The coefficient.
+        value: f64,
+    },
+    /// A pole or zero that is not finite, or that lacks its conjugate.
+    #[error(
+        "the {kind} {re} + {im} i rad/s must be finite, and stand beside its conjugate where it is complex"
+    )]
+    Unpaired {
+        /// `"pole"` or `"zero"`.
+        kind: &'static str,
+        /// Real part, rad/s.
+        re: f64,
+        /// Imaginary part, rad/s.
+        im: f64,
+    },
+    /// A transfer function with more zeros than poles, which no state space has.
+    #[error("a transfer function has at most as many zeros as poles, got {zeros} and {poles}")]
+    Improper {
+        /// Number of zeros.
+        zeros: usize,
+        /// Number of poles.
+        poles: usize,
+    },
+    /// A state space of another order than the transfer function.
+    #[error("a transfer function of order {order} takes as many states, not {states}")]
+    Order {
+        /// Number of poles.
+        order: usize,
+        /// Number of states asked for.
+        states: usize,
+    },
+    /// An input or output that the model does not have.
+    #[error("there is no {kind} {index}, the model has {count}")]
+    Channel {
+        /// `"input"` or `"output"`.
+        kind: &'static str,
+        /// The index given, from zero.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// A motion that is no vibration.
     #[error(transparent)]
     Mode(#[from] ModeError),

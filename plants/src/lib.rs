@@ -13,11 +13,12 @@ pub use nalgebra;
 pub use energy::{Energetic, EnergyLedger, HeldEnergetic, Powers, Work};
 pub use error::{HaltError, ModelError, RecordingError, SimulationError, StepError};
 pub use linear::{
-    QuadraticIntegral, Transition, eigenvalues, linearise, monodromy, quadratic_integral, spectral_radius,
-    zero_order_hold,
+    QuadraticIntegral, Transition, eigenvalues, linearise, monodromy, polynomial_roots, quadratic_integral,
+    spectral_radius, zero_order_hold,
 };
 pub use models::{
-    DiscreteStateSpace, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive, PmsmWindings, StateSpace, TwoInertia,
+    BeltDrive, DiscreteStateSpace, HeldTransferFunction, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive,
+    PmsmWindings, StateSpace, TransferFunction, TwoInertia,
 };
 pub use signals::{DelayedHold, Disturbance, Encoder, GaussianNoise, Noise, TransportDelay, UniformNoise};
 pub use simulation::{Channel, Clock, ControlTick, Outcome, Probe, Recording, Saturation, Simulation, Task};

@@ -1,7 +1,10 @@
 //! Configurations survive being written, and are checked when read.
 #![cfg(feature = "serde")]
 
-use plants::{Clock, Encoder, LinearMotor, LowPass, Pmsm, PmsmDrive, PmsmWindings, TwoInertia};
+use plants::{
+    BeltDrive, Clock, Encoder, LinearMotor, LowPass, Pmsm, PmsmDrive, PmsmWindings, TransferFunction,
+    TwoInertia,
+};
 
 #[test]
 fn round_trips() {
@@ -36,7 +39,19 @@ fn drives_round_trip() {
 }
 
 #[test]
+fn belts_and_transfer_functions_round_trip() {
+    let belt = BeltDrive::new(0.004, 0.03, 2.0).and_then(|b| b.with_damping(0.0, 0.01, 0.0)).expect("valid");
+    let text = serde_json::to_string(&belt).expect("writes");
+    assert_eq!(serde_json::from_str::<BeltDrive>(&text).expect("reads"), belt);
+    let transfer = belt.motor_from_torque().expect("finite");
+    let text = serde_json::to_string(&transfer).expect("writes");
+    assert_eq!(serde_json::from_str::<TransferFunction>(&text).expect("reads"), transfer);
+}
+
+#[test]
 fn bad_numbers_are_refused() {
+    let lone = r#"{"zeros":[],"poles":[[-1.0,2.0]],"gain":1.0}"#;
+    assert!(serde_json::from_str::<TransferFunction>(lone).is_err());
     assert!(serde_json::from_str::<LowPass>(r#"{"time_constant":0.0}"#).is_err());
     let axis = r#"{"motor_inertia":1.0,"load_inertia":1.0,"stiffness":1.0,
         "motor_damping":0.0,"spring_damping":-1.0,"load_damping":0.0}"#;

@@ -76,6 +76,19 @@ pub enum PlanError {
         /// The shortest distance in which the speeds can be reached, m.
         needed: f64,
     },
+    /// A jerk that is infinite or NaN, m/s^3.
+    #[error("the jerk must be finite, got {0}")]
+    Jerk(f64),
+    /// A part of a motion that cannot last so long.
+    #[error("the {phase} must last {range}, got {value} s")]
+    Phase {
+        /// Which part.
+        phase: &'static str,
+        /// The range its time must lie in.
+        range: &'static str,
+        /// The time given, s.
+        value: f64,
+    },
     /// A duration to stretch to that is above 1e75 s or shorter than the profile's own.
     #[error("a profile of {shortest} s cannot last {requested} s")]
     Duration {

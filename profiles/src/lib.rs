@@ -15,7 +15,7 @@ mod table;
 
 pub use cursor::Cursor;
 pub use error::{ClockError, LimitsError, ModeError, PlanError, PulseError, TableError};
-pub use laws::{Cosine, SCurve, SnapLimited, Trapezoid};
+pub use laws::{Cosine, FivePhase, SCurve, SnapLimited, Trapezoid};
 pub use num_complex::Complex;
 pub use polynomial::Piecewise;
 pub use profile::{Extrema, Profile, residual_vibration, transform};

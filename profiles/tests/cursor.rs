@@ -4,7 +4,7 @@
 mod common;
 
 use common::{CASES, Law, balanced_move, orders, scales};
-use profiles::{ClockError, Cosine, Cursor, Profile, Real, SCurve, SnapLimited, Trapezoid};
+use profiles::{ClockError, Cosine, Cursor, FivePhase, Profile, Real, SCurve, SnapLimited, Trapezoid};
 use proptest::prelude::*;
 
 /// Every tick is the sample at its instant, to a few roundings of the tick's own precision.
@@ -51,10 +51,12 @@ proptest! {
         follows::<_, f64>(SCurve::plan(distance, &limits)?, divisions)?;
         follows::<_, f64>(SnapLimited::plan(distance, &limits)?, divisions)?;
         follows::<_, f64>(Cosine::plan(distance, &limits)?, divisions)?;
+        follows::<_, f64>(FivePhase::plan(distance, &limits)?, divisions)?;
         follows::<_, f32>(Trapezoid::plan(distance, &limits)?, divisions)?;
         follows::<_, f32>(SCurve::plan(distance, &limits)?, divisions)?;
         follows::<_, f32>(SnapLimited::plan(distance, &limits)?, divisions)?;
         follows::<_, f32>(Cosine::plan(distance, &limits)?, divisions)?;
+        follows::<_, f32>(FivePhase::plan(distance, &limits)?, divisions)?;
     }
 
     #[test]

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{CASES, Law, a_move, balanced_move, lopsided, magnitude, orders, rounding, scales, sections};
-use profiles::{Cosine, Limits, Profile, SCurve, Sectioned, SnapLimited, Trapezoid};
+use profiles::{Cosine, FivePhase, Limits, Profile, SCurve, Sectioned, SnapLimited, Trapezoid};
 use proptest::prelude::*;
 
 /// Neighbouring sections meet, and so do the ends, in every order the law keeps continuous.
@@ -286,6 +286,7 @@ proptest! {
         is_fully_sound::<SCurve>(distance, &limits, 3, place)?;
         is_fully_sound::<SnapLimited>(distance, &limits, 4, place)?;
         is_fully_sound::<Cosine>(distance, &limits, 3, place)?;
+        is_fully_sound::<FivePhase>(distance, &limits, 3, place)?;
     }
 
     #[test]
@@ -306,6 +307,7 @@ proptest! {
         ramps::<SCurve>(from, to, &limits, 3, place)?;
         ramps::<SnapLimited>(from, to, &limits, 4, place)?;
         ramps::<Cosine>(from, to, &limits, 3, place)?;
+        ramps::<FivePhase>(from, to, &limits, 3, place)?;
     }
 
     #[test]
@@ -319,6 +321,7 @@ proptest! {
         is_scale_free::<SCurve>(distance, &limits, length, time, place)?;
         is_scale_free::<SnapLimited>(distance, &limits, length, time, place)?;
         is_scale_free::<Cosine>(distance, &limits, length, time, place)?;
+        is_scale_free::<FivePhase>(distance, &limits, length, time, place)?;
         is_scale_free::<SCurve>(distance, &lopsided(&limits, 0.3, 1.7), length, time, place)?;
     }
 
@@ -331,6 +334,7 @@ proptest! {
         is_monotone::<SCurve>(distance, &limits, more)?;
         is_monotone::<SnapLimited>(distance, &limits, more)?;
         is_monotone::<Cosine>(distance, &limits, more)?;
+        is_monotone::<FivePhase>(distance, &limits, more)?;
     }
 
     #[test]
@@ -339,6 +343,7 @@ proptest! {
         stretches(&SCurve::plan(distance, &limits)?, ratio)?;
         stretches(&SnapLimited::plan(distance, &limits)?, ratio)?;
         stretches(&Cosine::plan(distance, &limits)?, ratio)?;
+        stretches(&FivePhase::plan(distance, &limits)?, ratio)?;
     }
 
     #[test]

@@ -7,8 +7,8 @@ mod common;
 use common::swing::Swing;
 use common::{CASES, Law, any_move, balanced_move, lopsided, magnitude};
 use profiles::{
-    Cosine, Direction, Limits, Profile, Pulse, PulseError, PulseTrain, SCurve, Sectioned, SnapLimited,
-    Trapezoid,
+    Cosine, Direction, FivePhase, Limits, Profile, Pulse, PulseError, PulseTrain, SCurve, Sectioned,
+    SnapLimited, Trapezoid,
 };
 use proptest::prelude::*;
 
@@ -166,6 +166,7 @@ proptest! {
         holds::<SCurve>(distance, &limits, pulses, divisions)?;
         holds::<SnapLimited>(distance, &limits, pulses, divisions)?;
         holds::<Cosine>(distance, &limits, pulses, divisions)?;
+        holds::<FivePhase>(distance, &limits, pulses, divisions)?;
         holds::<SCurve>(distance, &lopsided(&limits, 0.3, 1.7), pulses, divisions)?;
     }
 
@@ -175,6 +176,7 @@ proptest! {
         is_sent(&SCurve::plan(distance, &limits)?, pulses)?;
         is_sent(&SnapLimited::plan(distance, &limits)?, pulses)?;
         is_sent(&Cosine::plan(distance, &limits)?, pulses)?;
+        is_sent(&FivePhase::plan(distance, &limits)?, pulses)?;
     }
 
     #[test]

@@ -5,7 +5,8 @@ mod common;
 
 use common::{CASES, Law, balanced_move, lopsided, magnitude, sections};
 use profiles::{
-    Complex, Cosine, Mode, Profile, SCurve, Sectioned, SnapLimited, Trapezoid, residual_vibration, transform,
+    Complex, Cosine, FivePhase, Mode, Profile, SCurve, Sectioned, SnapLimited, Trapezoid, residual_vibration,
+    transform,
 };
 use proptest::prelude::*;
 
@@ -102,6 +103,8 @@ proptest! {
         equals_quadrature(&profile, of(profile.duration()))?;
         let profile = Cosine::plan(distance, &limits)?;
         equals_quadrature(&profile, of(profile.duration()))?;
+        let profile = FivePhase::plan(distance, &limits)?;
+        equals_quadrature(&profile, of(profile.duration()))?;
         let profile = SCurve::plan(distance, &lopsided(&limits, 0.3, 2.0))?;
         equals_quadrature(&profile, of(profile.duration()))?;
     }
@@ -122,6 +125,8 @@ proptest! {
         let profile = SnapLimited::ramp(from * to, to, &limits)?;
         equals_quadrature(&profile, of(profile.duration()))?;
         let profile = Cosine::ramp(from * to, to, &limits)?;
+        equals_quadrature(&profile, of(profile.duration()))?;
+        let profile = FivePhase::ramp(from * to, to, &limits)?;
         equals_quadrature(&profile, of(profile.duration()))?;
     }
 

@@ -32,20 +32,30 @@ pub fn eigenvalues<const N: usize>(matrix: &SMatrix<f64, N, N>) -> Result<[Compl
             }
         }
     }
-    let largest = matrix.amax();
     let mut values = [Complex::new(0.0, 0.0); N];
-    if largest > 0.0 {
-        // With the largest entry at one, no square inside over- or underflows that matters.
-        let mut unit = DMatrix::from_fn(N, N, |i, j| matrix[(i, j)] / largest);
-        balance_parlett_reinsch(&mut unit);
-        let schur = Schur::try_new(unit.clone(), f64::EPSILON, ITERATIONS)
-            .or_else(|| Schur::try_new(reflected(&unit), f64::EPSILON, ITERATIONS))
-            .ok_or(ModelError::Eigenvalues { size: N })?;
-        for (value, found) in values.iter_mut().zip(schur.complex_eigenvalues().iter()) {
-            *value = found * largest;
-        }
+    let found = eigenvalues_of(&DMatrix::from_fn(N, N, |i, j| matrix[(i, j)]))?;
+    for (value, found) in values.iter_mut().zip(found) {
+        *value = found;
     }
     Ok(values)
+}
+
+/// The eigenvalues of a square matrix of any size with finite entries; conjugate ones stand side by side.
+pub(crate) fn eigenvalues_of(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, ModelError> {
+    let (size, largest) = (matrix.nrows(), matrix.amax());
+    if largest <= 0.0 {
+        return Ok(vec![Complex::new(0.0, 0.0); size]);
+    }
+    // With the largest entry at one, no square inside over- or underflows that matters.
+    let mut unit = matrix.map(|entry| entry / largest);
+    balance_parlett_reinsch(&mut unit);
+    let schur = Schur::try_new(unit.clone(), f64::EPSILON, ITERATIONS)
+        .or_else(|| Schur::try_new(reflected(&unit), f64::EPSILON, ITERATIONS))
+        .ok_or(ModelError::Eigenvalues { size })?;
+    // A block that was split by no rotation may hold a double real root, whose discriminant rounds to above zero.
+    let finite =
+        |value: &Complex<f64>| Complex::new(value.re, if value.im.is_nan() { 0.0 } else { value.im });
+    Ok(schur.complex_eigenvalues().iter().map(|value| finite(value) * largest).collect())
 }
 
 /// A similar matrix, `H M H` with a reflection `H`: the QR iteration stands still on some orthogonal matrices.

@@ -47,38 +47,74 @@ pub fn zero_order_hold<const N: usize, const M: usize>(
     b: &SMatrix<f64, N, M>,
     interval: f64,
 ) -> Result<Transition<N, M>, ModelError> {
-    let norm = check_interval(a, interval)?;
-    let transition = if norm > 0.0 {
-        exponential(&DMatrix::from_fn(N, N, |i, j| a[(i, j)] * interval), &(b * interval))
+    let (state, input) = held_transition(
+        &DMatrix::from_fn(N, N, |i, j| a[(i, j)]),
+        &DMatrix::from_fn(N, M, |i, j| b[(i, j)]),
+        interval,
+    )?;
+    Ok(Transition {
+        state: SMatrix::from_fn(|i, j| state[(i, j)]),
+        input: SMatrix::from_fn(|i, j| input[(i, j)]),
+    })
+}
+
+/// `Phi` and `Gamma` of matrices of any size, see [`zero_order_hold`].
+pub(crate) fn held_transition(
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+    interval: f64,
+) -> Result<(DMatrix<f64>, DMatrix<f64>), ModelError> {
+    check_length(interval)?;
+    let scaled = a * interval;
+    let norm = if scaled.is_empty() { 0.0 } else { scaled.one_norm() };
+    if !scaled.iter().all(|x| x.is_finite()) || norm > LARGEST_NORM {
+        return Err(ModelError::TooStiff { interval, norm });
+    }
+    let (state, input) = if norm > 0.0 {
+        exponential(&scaled, &(b * interval))
     } else {
-        Transition { state: SMatrix::identity(), input: b * interval }
+        (DMatrix::identity(a.nrows(), a.nrows()), b * interval)
     };
-    if transition.state.iter().chain(transition.input.iter()).all(|x| x.is_finite()) {
-        Ok(transition)
+    if state.iter().chain(input.iter()).all(|x| x.is_finite()) {
+        Ok((state, input))
     } else {
         Err(ModelError::Range { interval })
     }
 }
 
 /// The transition of `A T`, not zero, and `B T`; not finite where it has no representation.
-fn exponential<const N: usize, const M: usize>(a: &DMatrix<f64>, b: &SMatrix<f64, N, M>) -> Transition<N, M> {
+fn exponential(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (n, m) = b.shape();
     let mut balanced = a.clone();
     let scale = balance_parlett_reinsch(&mut balanced);
-    let scaled_b = SMatrix::<f64, N, M>::from_fn(|i, j| b[(i, j)] / scale[i]);
+    let scaled_b = DMatrix::from_fn(n, m, |i, j| b[(i, j)] / scale[i]);
     // Gamma is linear in B, so B may be brought below A: powers of a large B would overflow inside the exponential,
     // which then does not return.
     let input_scale = power_of_two_above((scaled_b.one_norm() / balanced.one_norm()).min(1e300));
 
-    let mut augmented = DMatrix::zeros(N + M, N + M);
-    augmented.view_mut((0, 0), (N, N)).copy_from(&balanced);
-    augmented.view_mut((0, N), (N, M)).copy_from(&(scaled_b / input_scale));
+    let mut augmented = DMatrix::zeros(n + m, n + m);
+    augmented.view_mut((0, 0), (n, n)).copy_from(&balanced);
+    augmented.view_mut((0, n), (n, m)).copy_from(&(scaled_b / input_scale));
     if !augmented.iter().all(|x| x.is_finite()) {
-        return Transition { state: SMatrix::identity(), input: SMatrix::repeat(f64::INFINITY) };
+        return (DMatrix::identity(n, n), DMatrix::repeat(n, m, f64::INFINITY));
     }
     let exponential = augmented.exp();
-    Transition {
-        state: SMatrix::from_fn(|i, j| exponential[(i, j)] * (scale[i] / scale[j])),
-        input: SMatrix::from_fn(|i, j| exponential[(i, N + j)] * scale[i] * input_scale),
+    (
+        DMatrix::from_fn(n, n, |i, j| exponential[(i, j)] * (scale[i] / scale[j])),
+        DMatrix::from_fn(n, m, |i, j| exponential[(i, n + j)] * scale[i] * input_scale),
+    )
+}
+
+/// Refuses an interval that is negative or not finite.
+fn check_length(interval: f64) -> Result<(), ModelError> {
+    if interval >= 0.0 && interval.is_finite() {
+        Ok(())
+    } else {
+        Err(ModelError::Parameter {
+            parameter: "the interval in s",
+            range: "finite and not negative",
+            value: interval,
+        })
     }
 }
 
@@ -87,13 +123,7 @@ pub(super) fn check_interval<const N: usize>(
     a: &SMatrix<f64, N, N>,
     interval: f64,
 ) -> Result<f64, ModelError> {
-    if !(interval >= 0.0 && interval.is_finite()) {
-        return Err(ModelError::Parameter {
-            parameter: "the interval in s",
-            range: "finite and not negative",
-            value: interval,
-        });
-    }
+    check_length(interval)?;
     let scaled_a = a * interval;
     let norm = scaled_a.one_norm();
     if !scaled_a.iter().all(|x| x.is_finite()) || norm > LARGEST_NORM {

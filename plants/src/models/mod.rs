@@ -1,5 +1,6 @@
 //! Continuous models of plants.
 
+mod belt_drive;
 mod check;
 mod decay;
 mod discrete;
@@ -8,14 +9,17 @@ mod low_pass;
 mod plant;
 mod pmsm;
 mod state_space;
+mod transfer_function;
 mod two_inertia;
 
+pub use belt_drive::BeltDrive;
 pub use discrete::DiscreteStateSpace;
 pub use linear_motor::LinearMotor;
 pub use low_pass::LowPass;
 pub use plant::Plant;
 pub use pmsm::{Pmsm, PmsmDrive, PmsmWindings};
 pub use state_space::StateSpace;
+pub use transfer_function::{HeldTransferFunction, TransferFunction};
 pub use two_inertia::TwoInertia;
 
 pub(crate) use state_space::finite;

@@ -52,6 +52,38 @@ impl Encoder {
         }
     }
 
+    /// An encoder from its counts (pulses, after whatever its electronics multiply) per rad or per m.
+    ///
+    /// ```
+    /// use plants::Encoder;
+    ///
+    /// let tail = Encoder::from_counts_per_unit(22_800.0)?; // pulses/rad
+    /// assert_eq!(tail.counts(2.0), 45_600);
+    /// assert_eq!(tail.counts_per_unit(), 22_800.0);
+    /// # Ok::<(), plants::ModelError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A number that is not positive and finite, or whose reciprocal is not.
+    pub fn from_counts_per_unit(counts: f64) -> Result<Self, ModelError> {
+        let resolution = 1.0 / counts;
+        if resolution > 0.0 && resolution.is_finite() {
+            Ok(Self { resolution })
+        } else {
+            Err(ModelError::Parameter {
+                parameter: "the counts per m or rad",
+                range: "positive and finite",
+                value: counts,
+            })
+        }
+    }
+
+    /// Counts per m or rad.
+    #[must_use]
+    pub fn counts_per_unit(&self) -> f64 {
+        1.0 / self.resolution
+    }
+
     /// The resolution, m or rad per count.
     #[must_use]
     pub fn resolution(&self) -> f64 {
@@ -92,6 +124,7 @@ mod tests {
         assert_eq!(encoder.counts(f64::NAN), 0);
         for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(Encoder::new(resolution).is_err());
+            assert!(Encoder::from_counts_per_unit(resolution).is_err());
         }
     }
 }

@@ -1,11 +1,13 @@
 //! The motion laws.
 
 mod cosine;
+mod five_phase;
 mod s_curve;
 mod snap_limited;
 mod trapezoid;
 
 pub use cosine::Cosine;
+pub use five_phase::FivePhase;
 pub use s_curve::SCurve;
 pub use snap_limited::SnapLimited;
 pub use trapezoid::Trapezoid;

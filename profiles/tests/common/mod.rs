@@ -4,7 +4,8 @@
 pub(crate) mod swing;
 
 use profiles::{
-    Cosine, Interval, Limits, PlanError, Profile, SCurve, Section, Sectioned, SnapLimited, Trapezoid,
+    Cosine, FivePhase, Interval, Limits, PlanError, Profile, SCurve, Section, Sectioned, SnapLimited,
+    Trapezoid,
 };
 use proptest::prelude::*;
 
@@ -92,6 +93,7 @@ law!(Trapezoid, 1);
 law!(SCurve, 2);
 law!(SnapLimited, 3);
 law!(Cosine, 2);
+law!(FivePhase, 2);
 
 /// The sections that last.
 pub(crate) fn sections<P: Sectioned>(profile: &P) -> Vec<Section> {
