@@ -9,12 +9,12 @@ pub enum SignalError {
     /// No samples.
     #[error("a signal needs at least one sample")]
     Empty,
-    /// Times and values of different lengths.
-    #[error("{times} times do not fit {values} values")]
+    /// Times and values, or two signals to compare, of different lengths.
+    #[error("{times} and {values} samples do not fit each other")]
     Lengths {
-        /// Number of times.
+        /// Number of times, or of the samples of the first signal.
         times: usize,
-        /// Number of values.
+        /// Number of values, or of the samples of the second signal.
         values: usize,
     },
     /// A value that is infinite or NaN.
@@ -49,6 +49,31 @@ pub enum SignalError {
     /// A move of no length, of which nothing can be a part.
     #[error("a move needs two different ends, got {0} twice")]
     NoMove(f64),
+    /// A number of samples out of range.
+    #[error("{quantity} must be {range}, got {length} samples")]
+    Length {
+        /// Which number.
+        quantity: &'static str,
+        /// The range it must lie in.
+        range: &'static str,
+        /// The number given.
+        length: usize,
+    },
+    /// A window that is reversed, or not inside the record.
+    #[error("the window from {lower} s to {upper} s must lie within the record, {first} s to {last} s")]
+    Window {
+        /// Start of the window, s.
+        lower: f64,
+        /// End of the window, s.
+        upper: f64,
+        /// The first sample, s.
+        first: f64,
+        /// The last sample, s.
+        last: f64,
+    },
+    /// A constant signal, of which nothing can be a part.
+    #[error("the signal is {0} throughout")]
+    Constant(f64),
     /// No samples from an instant on.
     #[error("there is no sample from {instant} s on: the last is at {last} s")]
     NothingAfter {
@@ -154,6 +179,77 @@ pub enum SinusoidError {
         /// Damping ratio, negative.
         damping_ratio: f64,
         /// Its standard deviation.
+        deviation: f64,
+    },
+}
+
+/// Why there is no fit of a transfer function.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TransferFunctionError {
+    /// A signal that cannot be.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// Input and output of different lengths.
+    #[error("{input} samples of the input do not fit {output} of the output")]
+    Lengths {
+        /// Samples of the input.
+        input: usize,
+        /// Samples of the output.
+        output: usize,
+    },
+    /// Orders out of range.
+    #[error("there must be 1 to {most} poles and at most as many zeros, got {poles} and {zeros}")]
+    Order {
+        /// Poles asked for.
+        poles: usize,
+        /// Zeros asked for.
+        zeros: usize,
+        /// The most poles allowed.
+        most: usize,
+    },
+    /// Fewer samples than the parameters need.
+    #[error("{samples} samples are too few, the fit needs {needed}")]
+    TooShort {
+        /// Samples given.
+        samples: usize,
+        /// Samples needed.
+        needed: usize,
+    },
+    /// An input or output of zeros.
+    #[error("{quantity} has no content: its largest value is {largest}")]
+    NoExcitation {
+        /// Which signal.
+        quantity: &'static str,
+        /// Its largest absolute value.
+        largest: f64,
+    },
+    /// The model explains no more of the output than chance would.
+    #[error(
+        "the output does not follow the input: the variance explained per parameter is {ratio} of the residual's, not {least}"
+    )]
+    NoResponse {
+        /// Variance explained per parameter over that of the residual.
+        ratio: f64,
+        /// The least ratio that is taken for a response.
+        least: f64,
+    },
+    /// The input does not tell the parameters apart, or there are more of them than the system has.
+    #[error(
+        "the data do not determine all poles and zeros: the condition of their derivatives is {condition}"
+    )]
+    Undetermined {
+        /// Condition of the derivatives of the output, each of length one; infinite where there are none.
+        condition: f64,
+    },
+    /// A pole that is not in the left half plane.
+    #[error("the pole at {real} + {imaginary}i rad/s is not stable, standard deviation {deviation} rad/s")]
+    Unstable {
+        /// Real part, rad/s, zero or positive.
+        real: f64,
+        /// Imaginary part, rad/s.
+        imaginary: f64,
+        /// Standard deviation of the real part, rad/s.
         deviation: f64,
     },
 }

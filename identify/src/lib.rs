@@ -2,14 +2,23 @@
 
 mod decrement;
 mod error;
+mod fit_percentage;
+mod least_squares;
+mod moving_average;
 mod peaks;
 mod response_class;
 mod signal;
 mod sinusoids;
+mod transfer_function;
 
 pub use decrement::LogarithmicDecrement;
-pub use error::{DecrementError, SignalError, SinusoidError};
+pub use error::{DecrementError, SignalError, SinusoidError, TransferFunctionError};
+pub use fit_percentage::fit_percentage;
+pub use moving_average::MovingAverage;
 pub use peaks::{Peak, Peaks};
 pub use response_class::{ClassifiedResponse, ResponseClass, ResponseClassifier};
 pub use signal::Signal;
 pub use sinusoids::{DampedSinusoids, DecayEstimate, ModeEstimate, SinusoidOptions, fit_damped_sinusoids};
+pub use transfer_function::{
+    Hold, RootEstimate, TransferFunctionFit, TransferFunctionOptions, fit_transfer_function,
+};

@@ -1,6 +1,7 @@
 //! A recorded signal, checked once.
 
 mod figures;
+mod integrals;
 
 use crate::error::SignalError;
 

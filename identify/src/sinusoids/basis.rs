@@ -2,8 +2,10 @@
 
 use core::f64::consts::PI;
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 use profiles::{Complex, Real};
+
+use crate::least_squares::{back_substitute, left, triangle};
 
 /// An exponential of the model, per sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,12 +103,6 @@ fn basis(poles: &[Pole], offset: bool, samples: usize, extra: usize) -> (Vec<f64
     (entries, columns)
 }
 
-/// The triangle of the orthogonal decomposition of some columns.
-fn triangle(entries: &[f64], samples: usize) -> Mat<f64> {
-    let columns = entries.len() / samples;
-    MatRef::from_column_major_slice(entries, samples, columns).qr().thin_R().to_owned()
-}
-
 /// The best amplitudes; none where two poles coincide to rounding.
 pub(super) fn amplitudes(poles: &[Pole], offset: bool, y: &[f64]) -> Option<Amplitudes> {
     let (mut entries, columns) = basis(poles, offset, y.len(), 1);
@@ -120,14 +116,6 @@ pub(super) fn amplitudes(poles: &[Pole], offset: bool, y: &[f64]) -> Option<Ampl
 pub(super) fn residual(poles: &[Pole], amplitudes: &[f64], offset: bool, y: &[f64]) -> Vec<f64> {
     let (entries, _) = basis(poles, offset, y.len(), 0);
     left(&entries, amplitudes, y)
-}
-
-fn left(entries: &[f64], amplitudes: &[f64], y: &[f64]) -> Vec<f64> {
-    let mut left = y.to_vec();
-    for (column, amplitude) in entries.chunks_exact(y.len()).zip(amplitudes) {
-        left.iter_mut().zip(column).for_each(|(left, entry)| *left -= amplitude * entry);
-    }
-    left
 }
 
 /// The triangle of the derivatives by decays and turns once the amplitudes are eliminated, with the residual as the
@@ -166,20 +154,4 @@ pub(super) fn projected(poles: &[Pole], amplitudes: &[f64], offset: bool, y: &[f
     entries.extend_from_slice(&left);
     let r = triangle(&entries, samples);
     Mat::from_fn(order + 1, order + 1, |i, j| r[(columns + i, columns + j)])
-}
-
-/// Solves the triangle of `size` rows from `start` on against a column of the same matrix; none if it is singular.
-pub(super) fn back_substitute(r: &Mat<f64>, start: usize, size: usize, column: usize) -> Option<Vec<f64>> {
-    let mut x = vec![0.0; size];
-    for i in (0..size).rev() {
-        let row = start + i;
-        let known: f64 = x.iter().enumerate().skip(i + 1).map(|(j, x)| r[(row, start + j)] * x).sum();
-        let norm = (0..=row).map(|k| r[(k, row)].abs()).fold(0.0, f64::max);
-        // Columns that agree to fourteen digits are one.
-        if r[(row, row)].abs() <= 1e-14 * norm {
-            return None;
-        }
-        x[i] = (r[(row, column)] - known) / r[(row, row)];
-    }
-    x.iter().all(|x| x.is_finite()).then_some(x)
 }

@@ -2,7 +2,8 @@
 
 use faer::Mat;
 
-use super::basis::{Amplitudes, Pole, amplitudes, back_substitute, order, projected};
+use super::basis::{Amplitudes, Pole, amplitudes, order, projected};
+use crate::least_squares::{damped_step, inverse_square};
 
 /// Poles with their amplitudes, and what they leave of the data.
 #[derive(Debug, Clone)]
@@ -35,7 +36,7 @@ impl Fit {
             let r = projected(&self.poles, &self.amplitudes, offset, y);
             let mut gain = None;
             for _ in 0..REFUSALS {
-                let trial = step(&r, damping)
+                let trial = damped_step(&r, damping)
                     .map(|step| {
                         let mut step = step.into_iter();
                         self.poles.iter().map(|pole| pole.moved(&mut step).bounded(y.len())).collect()
@@ -62,32 +63,6 @@ impl Fit {
 
     /// Columns of the inverse of the curvature for the decays and turns: times the noise variance, their covariance.
     pub(super) fn inverse_curvature(&self, offset: bool, y: &[f64]) -> Option<Mat<f64>> {
-        let size = order(&self.poles);
-        let r = projected(&self.poles, &self.amplitudes, offset, y);
-        let mut columns = Vec::with_capacity(size);
-        for unit in 0..size {
-            let wide = Mat::from_fn(size, size + 1, |i, j| {
-                if j < size { r[(i, j)] } else { f64::from(u8::from(i == unit)) }
-            });
-            columns.push(back_substitute(&wide, 0, size, size)?);
-        }
-        Some(Mat::from_fn(size, size, |i, j| columns.iter().map(|column| column[i] * column[j]).sum()))
+        inverse_square(&projected(&self.poles, &self.amplitudes, offset, y), order(&self.poles))
     }
-}
-
-/// The step that lowers the linearised sum of squares, damped in the scale of each column.
-fn step(r: &Mat<f64>, damping: f64) -> Option<Vec<f64>> {
-    let size = r.ncols() - 1;
-    let root = damping.sqrt();
-    let scale = |j: usize| root * (0..=j).map(|i| r[(i, j)] * r[(i, j)]).sum::<f64>().sqrt();
-    let augmented = Mat::from_fn(2 * size, size + 1, |i, j| {
-        if i < size {
-            r[(i, j)]
-        } else if i - size == j {
-            scale(j)
-        } else {
-            0.0
-        }
-    });
-    back_substitute(&augmented.qr().thin_R().to_owned(), 0, size, size)
 }
