@@ -89,6 +89,39 @@ pub enum SwarmError {
     },
 }
 
+/// A search of the simplex method that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SimplexError {
+    /// No unknowns, or steps that do not fit them.
+    #[error("{steps} steps do not fit {unknowns} unknowns, or there are none")]
+    Lengths {
+        /// Unknowns.
+        unknowns: usize,
+        /// Steps.
+        steps: usize,
+    },
+    /// A start or a step that is not finite, or a step of zero.
+    #[error("unknown {index} must start and step by finite numbers, and step at all, got {value} and {step}")]
+    Number {
+        /// Index of the unknown, from zero.
+        index: usize,
+        /// Its start.
+        value: f64,
+        /// Its step.
+        step: f64,
+    },
+    /// No candidate that could be evaluated.
+    #[error("none of {evaluations} candidates has a cost")]
+    NoCandidate {
+        /// Candidates evaluated.
+        evaluations: u64,
+    },
+    /// What argmin says.
+    #[error("the solver stopped: {0}")]
+    Solver(String),
+}
+
 /// A response that has no fitness.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

@@ -3,11 +3,13 @@
 mod cost;
 mod error;
 mod fitness;
+mod simplex;
 mod swarm;
 
 pub use cost::Cost;
-pub use error::{FitnessError, SwarmError};
+pub use error::{FitnessError, SimplexError, SwarmError};
 pub use fitness::{Fitness, FitnessWeights};
+pub use simplex::{SimplexResult, simplex};
 pub use swarm::{
     Boundary, InitialVelocity, ParticleSwarm, Progress, Schedule, Stall, Stop, Stream, Swarm, SwarmOptions,
     Topology,

@@ -1,0 +1,99 @@
+//! The drive whose transfer function is lost, found again from what is printed of its response.
+
+use anyhow::{Context as _, Result};
+use identify::Signal;
+use optimize::{Cost, simplex};
+use plants::{DiscreteStateSpace, TransferFunction};
+use plants::nalgebra::{SVector, Vector1};
+use profiles::Real;
+
+use super::setup::{
+    BAND, COMMAND, JERK, PEAK, PHASE, SETTLINGS, STEP, TARGET, TRAPEZOID_PEAK, held, s_curve, speed, trapezoid,
+};
+
+/// This file, from the root of the repository.
+pub(super) const FILE: &str = file!();
+
+/// Drive, motor and belt, from the speed commanded to that of the load: a vibration with a lead.
+#[derive(Clone, Debug)]
+pub(super) struct Drive {
+    pub(super) damping: f64,
+    /// Time constant of the zero, s.
+    pub(super) lead: f64,
+    sampled: DiscreteStateSpace<2, 1, 1>,
+}
+
+impl Drive {
+    /// The drive with the printed gain and the printed peak as its damped frequency.
+    pub(super) fn new(damping: f64, lead: f64) -> Result<Self> {
+        let frequency = PEAK / Real::sqrt((1.0 - damping) * (1.0 + damping));
+        let transfer = TransferFunction::second_order(TARGET / COMMAND, frequency, damping, lead)?;
+        let sampled = transfer.to_state_space::<2>()?.discretise(STEP)?;
+        Ok(Self { damping, lead, sampled })
+    }
+
+    /// What the load does under a command held over every step, pulse/s.
+    pub(super) fn respond(&self, command: &[f64]) -> Vec<f64> {
+        let mut state = SVector::<f64, 2>::zeros();
+        let step = |input: &f64| {
+            let input = Vector1::new(*input);
+            let output = self.sampled.output(&state, &input)[0];
+            state = self.sampled.step(&state, &input);
+            output
+        };
+        command.iter().map(step).collect()
+    }
+}
+
+/// Overshoot as a part of what is wanted, and settling time in s.
+pub(super) fn figures(output: &[f64]) -> Result<(f64, f64)> {
+    let signal = Signal::sampled(output, STEP)?;
+    Ok((signal.overshoot(0.0, TARGET)?, signal.settling_time(TARGET, BAND * TARGET)?))
+}
+
+/// A reconstruction: the drive, how much later than the record the move starts, s, and what the search left.
+pub(super) struct Reconstruction {
+    pub(super) drive: Drive,
+    pub(super) start: f64,
+    pub(super) cost: f64,
+    pub(super) evaluations: u64,
+}
+
+/// What an overshoot, in parts, and a settling time in s may be off by to cost one.
+const SLACK: (f64, f64) = (0.01, 0.05);
+
+/// The reconstruction from overshoot and settling under the trapezoid; with `late`, from the settling under the S-curve too,
+/// and with a record that starts before the move.
+pub(super) fn reconstruct(late: bool) -> Result<Reconstruction> {
+    let near_step = held(trapezoid(COMMAND));
+    let curve = s_curve(JERK, PHASE)?;
+    let smooth = held(speed(&curve));
+    let cost = |unknowns: &[f64]| -> Result<f64> {
+        let [damping, lead] = [unknowns.first(), unknowns.get(1)].map(|x| x.copied().unwrap_or(f64::NAN));
+        let start = unknowns.get(2).copied().unwrap_or(0.0);
+        let drive = Drive::new(damping, lead)?;
+        let (overshoot, settling) = figures(&drive.respond(&near_step))?;
+        let mut cost = ((overshoot - (TRAPEZOID_PEAK / TARGET - 1.0)) / SLACK.0).powi(2)
+            + ((settling + start - SETTLINGS[0]) / SLACK.1).powi(2);
+        if late {
+            let (_, settling) = figures(&drive.respond(&smooth))?;
+            cost += ((settling + start - SETTLINGS[1]) / SLACK.1).powi(2);
+        }
+        Ok(cost)
+    };
+    let start = [0.25, 0.12, 0.4];
+    let unknowns = if late { 3 } else { 2 };
+    let found = simplex(
+        |unknowns| cost(unknowns).map_or(Cost::Failed, Cost::Ok),
+        &start[..unknowns],
+        &[0.05, 0.03, 0.1][..unknowns],
+        400,
+    )?;
+    let [damping, lead] = [0, 1].map(|k| found.best.get(k).copied());
+    Ok(Reconstruction {
+        drive: Drive::new(damping.context("a damping")?, lead.context("a lead")?)?,
+        start: found.best.get(2).copied().unwrap_or(0.0),
+        cost: found.cost.value().context("no drive found")?,
+        evaluations: found.evaluations,
+    })
+}

@@ -1,0 +1,109 @@
+//! The swarm that tunes the S-curve, the grid it is judged by, and the shortest curve that does no worse than the paper's.
+
+use anyhow::{Context as _, Result};
+use argmin::core::{CostFunction, Error, Executor};
+use identify::Signal;
+use optimize::{Cost, FitnessWeights, ParticleSwarm, Schedule, SwarmOptions};
+use profiles::Interval;
+
+use super::drive::{Drive, figures};
+use super::setup::{
+    COMMAND, FACTORS, GOOD_ENOUGH, LARGEST_JERK, LONGEST_PHASE, STEP, SWARM, TARGET, WEIGHTS, held, s_curve, speed,
+};
+
+/// This file, from the root of the repository.
+pub(super) const FILE: &str = file!();
+
+/// The fitness (15) of an S-curve on a drive.
+pub(super) struct Tuning<'a> {
+    pub(super) drive: &'a Drive,
+    weights: FitnessWeights,
+}
+
+impl<'a> Tuning<'a> {
+    pub(super) fn new(drive: &'a Drive) -> Result<Self> {
+        let [error, effort, overshoot, penalty] = WEIGHTS;
+        Ok(Self { drive, weights: FitnessWeights::new(error, effort, overshoot, penalty)? })
+    }
+
+    pub(super) fn fitness(&self, jerk: f64, phase: f64) -> Result<f64> {
+        let curve = s_curve(jerk, phase)?;
+        let command = held(speed(&curve));
+        let output = self.drive.respond(&command);
+        Ok(self.weights.of(&Signal::sampled(&output, STEP)?, &command, 0.0, TARGET)?.total())
+    }
+}
+
+impl CostFunction for &Tuning<'_> {
+    type Param = Vec<f64>;
+    type Output = Cost;
+
+    fn cost(&self, candidate: &Vec<f64>) -> Result<Cost, Error> {
+        let [jerk, phase] = candidate[..] else { return Ok(Cost::Failed) };
+        Ok(Cost::from(self.fitness(jerk, phase)?))
+    }
+}
+
+/// What the swarm found and how.
+pub(super) struct Tuned {
+    pub(super) jerk: f64,
+    pub(super) phase: f64,
+    pub(super) fitness: f64,
+    /// The best fitness after every iteration.
+    pub(super) history: Vec<(f64, f64)>,
+}
+
+/// The swarm as the paper sets it.
+pub(super) fn swarm(tuning: &Tuning<'_>, seed: u64, iterations: u64) -> Result<Tuned> {
+    let (inertia, pull) = FACTORS;
+    let options = SwarmOptions {
+        inertia: Schedule::Constant(inertia),
+        cognitive: Schedule::Constant(pull),
+        social: Schedule::Constant(pull),
+        target: Some(GOOD_ENOUGH),
+        ..SwarmOptions::new(SWARM.0, iterations)
+    };
+    // The smallest are far from anything that moves, and none is zero.
+    let bounds = [Interval::new(1e-3 * LARGEST_JERK, LARGEST_JERK), Interval::new(1e-3 * LONGEST_PHASE, LONGEST_PHASE)];
+    let result = Executor::new(tuning, ParticleSwarm::new(&bounds, options, seed)?).run()?;
+    let swarm = result.solver.swarm();
+    let (best, cost) = swarm.best();
+    let [jerk, phase] = *best else { anyhow::bail!("two dimensions") };
+    let history = swarm.history().iter().filter_map(|p| Some((p.iteration as f64, p.best.value()?))).collect();
+    Ok(Tuned { jerk, phase, fitness: cost.value().context("no curve found")?, history })
+}
+
+/// The least fitness on a grid of phase times and peak speeds, refined about its best point until it is finer than the swarm
+/// can tell: the fitness, the jerk and the phase time.
+pub(super) fn grid(tuning: &Tuning<'_>) -> Result<(f64, f64, f64)> {
+    let (mut speeds, mut phases) = ((0.5 * COMMAND, 1.5 * COMMAND), (0.2, LONGEST_PHASE));
+    let mut best = (f64::INFINITY, 0.0, 0.0);
+    for _ in 0..5 {
+        let place = |(from, to): (f64, f64), k: u32| from + (to - from) * f64::from(k) / 20.0;
+        for (i, j) in (0..=20).flat_map(|i| (0..=20).map(move |j| (i, j))) {
+            let (speed, phase) = (place(speeds, i), place(phases, j));
+            let fitness = tuning.fitness(speed / (phase * phase), phase)?;
+            if fitness < best.0 {
+                best = (fitness, speed, phase);
+            }
+        }
+        let around = |centre: f64, (from, to): (f64, f64)| {
+            let half = 0.1 * (to - from);
+            (centre - half, (centre + half).min(LONGEST_PHASE.max(centre + half)))
+        };
+        (speeds, phases) = (around(best.1, speeds), around(best.2, phases));
+        phases.1 = phases.1.min(LONGEST_PHASE);
+    }
+    let (fitness, speed, phase) = best;
+    Ok((fitness, speed / (phase * phase), phase))
+}
+
+/// Overshoot and settling against the phase time of a curve to the printed command.
+pub(super) fn course(drive: &Drive, phases: &[f64]) -> Result<Vec<(f64, f64, f64)>> {
+    let one = |phase: &f64| {
+        let curve = s_curve(COMMAND / (phase * phase), *phase)?;
+        let (overshoot, settling) = figures(&drive.respond(&held(speed(&curve))))?;
+        Ok((*phase, overshoot, settling))
+    };
+    phases.iter().map(one).collect()
+}
