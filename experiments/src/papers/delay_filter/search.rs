@@ -1,10 +1,7 @@
 //! The search for what the paper leaves out of its loops.
 
-use std::cell::Cell;
-
 use anyhow::{Context as _, Result, ensure};
-use argmin::core::{CostFunction, Error, Executor, State};
-use argmin::solver::neldermead::NelderMead;
+use optimize::{Cost, simplex};
 
 use super::reading::{Reading, read};
 use super::servo::{LoopParameters, Servo};
@@ -20,8 +17,6 @@ const FREQUENCY: f64 = 0.05;
 const SETTLING: f64 = 0.1;
 /// What another class, or no vibration where one is printed, costs.
 const CLASS: f64 = 50.0;
-/// What a loop that does not run costs.
-const UNSTABLE: f64 = 1e6;
 /// The largest bandwidth of the current loop, rad/s: half a radian to a tick.
 const LARGEST_BANDWIDTH: f64 = 0.5 * CONTROL_RATE as f64;
 
@@ -85,48 +80,23 @@ fn cost(unknowns: &[f64]) -> Result<f64> {
     Ok(cost)
 }
 
-struct Problem<'a> {
-    step: &'a dyn Fn(),
-}
-
-impl CostFunction for Problem<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, unknowns: &Vec<f64>) -> Result<f64, Error> {
-        (self.step)();
-        // A loop that cannot be made or runs away is no candidate.
-        Ok(cost(unknowns).unwrap_or(UNSTABLE))
-    }
-}
-
-/// Searches from every one of `starts`, a loop and a band each, with at most `iterations` of the simplex method of Nelder
-/// and Mead.
+/// Searches from every one of `starts`, a loop and a band each, with at most `iterations` of the simplex method.
 pub(super) fn search(starts: &[(LoopParameters, f64)], iterations: u64, step: &dyn Fn()) -> Result<Found> {
-    let (mut found, mut evaluations): (Option<Found>, u64) = (None, 0);
     let first = starts.first().context("a start")?;
     let start_cost = cost(&unknowns(&first.0, first.1))?;
+    let (mut found, mut evaluations): (Option<Found>, u64) = (None, 0);
     for (start, band) in starts {
-        let origin = unknowns(start, *band);
-        // The simplex: the start, and a third more of each unknown in turn.
-        let corners = (0..origin.len()).map(|k| {
-            let mut corner = origin.clone();
-            corner[k] += 0.3;
-            corner
-        });
-        let simplex: Vec<Vec<f64>> = std::iter::once(origin.clone()).chain(corners).collect();
-        let counted = Cell::new(0);
-        let count = || {
-            counted.set(counted.get() + 1);
+        let start = unknowns(start, *band);
+        // A loop that cannot be made or runs away is no candidate.
+        let costs = |unknowns: &[f64]| {
             step();
+            cost(unknowns).map_or(Cost::Failed, Cost::Ok)
         };
-        let problem = Problem { step: &count };
-        let solver = NelderMead::new(simplex).with_sd_tolerance(1e-6)?;
-        let result = Executor::new(problem, solver).configure(|state| state.max_iters(iterations)).run()?;
-        evaluations += counted.get();
-        let state = result.state();
-        let (loops, band) = loops(state.get_best_param().context("no best")?).context("five unknowns")?;
-        let cost = state.get_best_cost();
+        // A third more of each unknown in turn.
+        let result = simplex(costs, &start, &[0.3; 5], iterations)?;
+        evaluations += result.evaluations;
+        let (loops, band) = loops(&result.best).context("five unknowns")?;
+        let cost = result.cost.value().context("a cost")?;
         if found.as_ref().is_none_or(|found| cost < found.cost) {
             found = Some(Found { loops, band, cost, start_cost, evaluations: 0 });
         }
