@@ -37,19 +37,19 @@ fn roots(reals: usize, pairs: usize, right: bool) -> impl Strategy<Value = Roots
         })
 }
 
+/// So many real poles and pairs, and at most as many zeros in any mixture.
+fn with_poles(reals: usize, pairs: usize) -> impl Strategy<Value = TransferFunction> {
+    let order = reals + 2 * pairs;
+    let zeros = (0..=order, 0..=order / 2)
+        .prop_flat_map(|(all, pairs)| roots(all - 2 * pairs.min(all / 2), pairs.min(all / 2), true));
+    (roots(reals, pairs, false), zeros, 0.1..10.0_f64)
+        .prop_map(|(poles, zeros, gain)| TransferFunction::new(&zeros, &poles, gain).expect("valid"))
+}
+
 /// Up to six poles and as many zeros, in every mixture of real ones and pairs.
 fn transfer() -> impl Strategy<Value = TransferFunction> {
-    (0..4_usize, 0..3_usize)
-        .prop_filter("some poles", |(r, p)| r + p > 0 && r + 2 * p <= 6)
-        .prop_flat_map(|(r, p)| {
-            let order = r + 2 * p;
-            (roots(r, p, false), 0..=order, 0..=order / 2, 0.1..10.0_f64)
-        })
-        .prop_flat_map(|(poles, zeros, pairs, gain)| {
-            let pairs = pairs.min(zeros / 2);
-            (Just(poles), roots(zeros - 2 * pairs, pairs, true), Just(gain))
-        })
-        .prop_map(|(poles, zeros, gain)| TransferFunction::new(&zeros, &poles, gain).expect("valid"))
+    let mixtures = [(1, 0), (2, 0), (0, 1), (3, 0), (1, 1), (2, 1), (0, 2), (3, 1), (1, 2), (2, 2), (0, 3)];
+    prop::sample::select(mixtures.to_vec()).prop_flat_map(|(reals, pairs)| with_poles(reals, pairs))
 }
 
 /// `C (s I - A)^-1 B + D` by elimination.
@@ -110,16 +110,17 @@ const POINTS: [Complex<f64>; 5] = [
 
 fn is_its_state_space<const N: usize>(transfer: &TransferFunction) -> Result<(), TestCaseError> {
     let system = transfer.to_state_space::<N>()?;
-    // Roundings grow with what a series passes on: up to 1e4 times where a zero is far from its poles.
+    // Roundings grow with what a series passes on: up to 1e4 times where zeros are far from their poles.
     let scale = POINTS.iter().map(|s| transfer.at(*s).map_or(0.0, |g| g.norm())).fold(0.0, f64::max);
     for s in POINTS {
         let (direct, through) = (transfer.at(s)?, resolvent(&system, s));
-        prop_assert!((direct - through).norm() <= 1e-10 * scale, "{direct} and {through} at {s}");
+        prop_assert!((direct - through).norm() <= 1e-11 * scale, "{direct} and {through} at {s}");
     }
     // The poles are the diagonal blocks: none is moved by the others.
     matched(&system.poles()?, transfer.poles(), 1e-14)?;
     let again = TransferFunction::from_state_space(&system, 0, 0)?;
     matched(again.poles(), transfer.poles(), 1e-14)?;
+    // Zeros a hundred times as large as others, by reductions that mix them: 5e-9 was the worst of 100 000.
     matched(again.zeros(), transfer.zeros(), 1e-7)?;
     prop_assert!((again.gain() / transfer.gain() - 1.0).abs() < 1e-9);
     // And of fixed size it is stepped as it is of any size.
@@ -131,7 +132,7 @@ fn is_its_state_space<const N: usize>(transfer: &TransferFunction) -> Result<(),
         let (y, z) = (held.update(input), discrete.output(&state, &vector![input])[0]);
         state = discrete.step(&state, &vector![input]);
         // The same matrices; products of other sizes are summed in another order.
-        prop_assert!((y - z).abs() <= 1e-9 * (1.0 + scale) * 5.0, "{y} {z}");
+        prop_assert!((y - z).abs() <= 1e-11 * (1.0 + scale) * 5.0, "{y} {z}");
     }
     Ok(())
 }
@@ -163,8 +164,8 @@ proptest! {
         }
         let again = TransferFunction::from_coefficients(&numerator, &denominator)?;
         // Six roots a tenth apart multiply roundings by up to 1e7.
-        matched(again.poles(), transfer.poles(), 1e-8)?;
-        matched(again.zeros(), transfer.zeros(), 1e-8)?;
+        matched(again.poles(), transfer.poles(), 1e-9)?;
+        matched(again.zeros(), transfer.zeros(), 1e-9)?;
         prop_assert!((again.gain() / transfer.gain() - 1.0).abs() < 1e-15);
     }
 
@@ -178,6 +179,7 @@ proptest! {
             transfer.gain() * top / bottom
         }).collect();
         let (step, impulse) = (transfer.step_response(period, 40)?, transfer.impulse_response(period, 40)?);
+        // Poles a tenth apart have residues that cancel; a few products for each sample: 1e-13 is passed once in 1e5.
         let sizes: [f64; 2] = [
             transfer.dc_gain()?.abs() + residues.iter().zip(poles).map(|(r, p)| (r / p).norm()).sum::<f64>(),
             residues.iter().map(|r| r.norm()).sum(),
@@ -193,7 +195,7 @@ proptest! {
     }
 
     #[test]
-    fn the_exact_step_is_the_limit_of_small_ones(transfer in transfer().prop_filter("4", |g| g.order() == 4)) {
+    fn the_exact_step_is_the_limit_of_small_ones(transfer in prop_oneof![with_poles(4, 0), with_poles(2, 1), with_poles(0, 2)]) {
         let system = transfer.to_state_space::<4>()?;
         let mut small = Rk4::fixed(system, 64, 15.0)?;
         let mut held = transfer.held(0.05)?;
@@ -203,7 +205,7 @@ proptest! {
             let (exact, stepped) = (held.update(input), system.output(&state, &vector![input])[0]);
             size = size.max(exact.abs());
             // rho h < 0.01: (rho h)^4 / 120 a radian, and what a series of sections adds to it.
-            prop_assert!((exact - stepped).abs() <= 1e-6 * (size + transfer.gain()), "{exact} {stepped} at {k}");
+            prop_assert!((exact - stepped).abs() <= 1e-7 * (size + transfer.gain()), "{exact} {stepped} at {k}");
             state = small.advance(&state, &vector![input], 0.05)?;
         }
     }
