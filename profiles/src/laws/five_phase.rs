@@ -25,8 +25,8 @@ use crate::quantities::{Limits, Real, Sample};
 /// `2 (v_s + v) T + v T_3`. Jerk and speeds are signed, rad for m throughout where the axis turns.
 ///
 /// A motion with a start speed rests before it and after it: it jumps to `v_s` and stops dead from it, as a
-/// [`Trapezoid`](crate::Trapezoid) with speeds does. [`ramp_with_jerk`](Self::ramp_with_jerk) is the first half alone, on top of a
-/// speed that is there before.
+/// [`Trapezoid`](crate::Trapezoid) with speeds does. [`ramp_with_jerk`](Self::ramp_with_jerk) is the first half
+/// alone, on top of a speed that is there before.
 ///
 /// ```
 /// use profiles::{FivePhase, Profile};
