@@ -4,7 +4,9 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use plants::nalgebra::{SVector, vector};
-use plants::{PmsmDrive, PmsmWindings, Rk4, Stepper, TransportDelay, TwoInertia, ZeroOrderHold};
+use plants::{
+    PmsmDrive, PmsmWindings, Rk4, Stepper, TransferFunction, TransportDelay, TwoInertia, ZeroOrderHold,
+};
 
 fn axis() -> Option<TwoInertia> {
     TwoInertia::new(0.003, 5.066e-4, 100.0).and_then(|axis| axis.with_damping(0.008, 0.006, 0.0)).ok()
@@ -156,5 +158,49 @@ fn delay(criterion: &mut Criterion) {
     criterion.bench_function("transport delay", |b| b.iter(|| line.update(black_box(1.0)).mean()));
 }
 
-criterion_group!(benches, exact_tick, drive_step, delay);
+/// A vibration with a lead under a held input, exactly.
+fn transfer_tick(criterion: &mut Criterion) {
+    let Ok(belt) = TransferFunction::second_order(1.15, 7.54, 0.2, 0.092) else { return };
+    let discrete = belt.to_state_space::<2>().and_then(|system| system.discretise(1e-3));
+    let (Ok(discrete), Ok(mut held)) = (discrete, belt.held(1e-3)) else { return };
+    let mut group = criterion.benchmark_group("transfer function of order 2, a tick");
+    group.throughput(Throughput::Elements(STEPS));
+    group.bench_function("by hand", |b| {
+        let (phi, gamma, c) = (discrete.transition().state, discrete.transition().input, discrete.c());
+        let hand = [phi[(0, 0)], phi[(0, 1)], phi[(1, 0)], phi[(1, 1)], gamma[0], gamma[1], c[0], c[1]];
+        let ([p, q, r, s, g, h, c, d], mut x, mut y) = (black_box(hand), 0.0, 0.0);
+        b.iter(|| {
+            for _ in 0..STEPS {
+                let u = black_box(1.0);
+                black_box(c * x + d * y);
+                (x, y) = (p * x + q * y + g * u, r * x + s * y + h * u);
+            }
+        });
+    });
+    group.bench_function("DiscreteStateSpace", |b| {
+        let mut x = vector![0.0, 0.0];
+        b.iter(|| {
+            for _ in 0..STEPS {
+                let u = vector![black_box(1.0)];
+                black_box(discrete.output(&x, &u));
+                x = discrete.step(&x, &u);
+            }
+        });
+    });
+    group.bench_function("HeldTransferFunction", |b| {
+        b.iter(|| {
+            for _ in 0..STEPS {
+                black_box(held.update(black_box(1.0)));
+            }
+        });
+    });
+    group.finish();
+    criterion.bench_function("transfer function of order 2, discretise", |b| {
+        b.iter(|| {
+            black_box(&belt).to_state_space::<2>().and_then(|system| system.discretise(black_box(1e-3)))
+        })
+    });
+}
+
+criterion_group!(benches, exact_tick, drive_step, transfer_tick, delay);
 criterion_main!(benches);

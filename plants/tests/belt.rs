@@ -58,7 +58,7 @@ fn damped_they_are_those_of_the_two_inertias() {
         belt.load_from_torque().expect("finite"),
     );
     let system = belt.state_space().expect("finite");
-    // Of the double-checked state space the rotation is one pole of many: well apart, to some roundings.
+    // Damped, all poles are well apart: the eigenvalue solver finds them to some roundings.
     let found = TransferFunction::from_state_space(&system, 0, 0).expect("converges");
     let through = TransferFunction::from_state_space(&system, 0, 2).expect("converges");
     assert_eq!((found.zeros().len(), through.zeros().len()), (2, 1));

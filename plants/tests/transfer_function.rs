@@ -2,7 +2,7 @@
 #![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
 
 use plants::nalgebra::{Complex, SMatrix, SVector, matrix, vector};
-use plants::{ModelError, Rk4, StateSpace, Stepper, TransferFunction, eigenvalues};
+use plants::{ModelError, Rk4, StateSpace, Stepper, TransferFunction};
 use profiles::{FivePhase, Profile};
 use proptest::prelude::*;
 
@@ -37,19 +37,19 @@ fn roots(reals: usize, pairs: usize, right: bool) -> impl Strategy<Value = Roots
         })
 }
 
+/// So many real poles and pairs, and at most as many zeros in any mixture.
+fn with_poles(reals: usize, pairs: usize) -> impl Strategy<Value = TransferFunction> {
+    let order = reals + 2 * pairs;
+    let zeros = (0..=order, 0..=order / 2)
+        .prop_flat_map(|(all, pairs)| roots(all - 2 * pairs.min(all / 2), pairs.min(all / 2), true));
+    (roots(reals, pairs, false), zeros, 0.1..10.0_f64)
+        .prop_map(|(poles, zeros, gain)| TransferFunction::new(&zeros, &poles, gain).expect("valid"))
+}
+
 /// Up to six poles and as many zeros, in every mixture of real ones and pairs.
 fn transfer() -> impl Strategy<Value = TransferFunction> {
-    (0..4_usize, 0..3_usize)
-        .prop_filter("some poles", |(r, p)| r + p > 0 && r + 2 * p <= 6)
-        .prop_flat_map(|(r, p)| {
-            let order = r + 2 * p;
-            (roots(r, p, false), 0..=order, 0..=order / 2, 0.1..10.0_f64)
-        })
-        .prop_flat_map(|(poles, zeros, pairs, gain)| {
-            let pairs = pairs.min(zeros / 2);
-            (Just(poles), roots(zeros - 2 * pairs, pairs, true), Just(gain))
-        })
-        .prop_map(|(poles, zeros, gain)| TransferFunction::new(&zeros, &poles, gain).expect("valid"))
+    let mixtures = [(1, 0), (2, 0), (0, 1), (3, 0), (1, 1), (2, 1), (0, 2), (3, 1), (1, 2), (2, 2), (0, 3)];
+    prop::sample::select(mixtures.to_vec()).prop_flat_map(|(reals, pairs)| with_poles(reals, pairs))
 }
 
 /// `C (s I - A)^-1 B + D` by elimination.
@@ -110,16 +110,17 @@ const POINTS: [Complex<f64>; 5] = [
 
 fn is_its_state_space<const N: usize>(transfer: &TransferFunction) -> Result<(), TestCaseError> {
     let system = transfer.to_state_space::<N>()?;
-    // Roundings grow with what a series passes on: up to 1e4 times where a zero is far from its poles.
+    // Roundings grow with what a series passes on: up to 1e4 times where zeros are far from their poles.
     let scale = POINTS.iter().map(|s| transfer.at(*s).map_or(0.0, |g| g.norm())).fold(0.0, f64::max);
     for s in POINTS {
         let (direct, through) = (transfer.at(s)?, resolvent(&system, s));
-        prop_assert!((direct - through).norm() <= 1e-10 * scale, "{direct} and {through} at {s}");
+        prop_assert!((direct - through).norm() <= 1e-11 * scale, "{direct} and {through} at {s}");
     }
     // The poles are the diagonal blocks: none is moved by the others.
     matched(&system.poles()?, transfer.poles(), 1e-14)?;
     let again = TransferFunction::from_state_space(&system, 0, 0)?;
     matched(again.poles(), transfer.poles(), 1e-14)?;
+    // Zeros a hundred times as large as others, by reductions that mix them: 5e-9 was the worst of 100 000.
     matched(again.zeros(), transfer.zeros(), 1e-7)?;
     prop_assert!((again.gain() / transfer.gain() - 1.0).abs() < 1e-9);
     // And of fixed size it is stepped as it is of any size.
@@ -131,7 +132,7 @@ fn is_its_state_space<const N: usize>(transfer: &TransferFunction) -> Result<(),
         let (y, z) = (held.update(input), discrete.output(&state, &vector![input])[0]);
         state = discrete.step(&state, &vector![input]);
         // The same matrices; products of other sizes are summed in another order.
-        prop_assert!((y - z).abs() <= 1e-9 * (1.0 + scale) * 5.0, "{y} {z}");
+        prop_assert!((y - z).abs() <= 1e-11 * (1.0 + scale) * 5.0, "{y} {z}");
     }
     Ok(())
 }
@@ -163,8 +164,8 @@ proptest! {
         }
         let again = TransferFunction::from_coefficients(&numerator, &denominator)?;
         // Six roots a tenth apart multiply roundings by up to 1e7.
-        matched(again.poles(), transfer.poles(), 1e-8)?;
-        matched(again.zeros(), transfer.zeros(), 1e-8)?;
+        matched(again.poles(), transfer.poles(), 1e-9)?;
+        matched(again.zeros(), transfer.zeros(), 1e-9)?;
         prop_assert!((again.gain() / transfer.gain() - 1.0).abs() < 1e-15);
     }
 
@@ -172,28 +173,31 @@ proptest! {
     fn a_step_in_partial_fractions(transfer in transfer(), period in 0.01..0.5_f64) {
         // y(t) = G(0) + sum of r_i / p_i e^(p_i t), the impulse response sum of r_i e^(p_i t).
         let poles = transfer.poles();
-        let residues: Roots = poles.iter().enumerate().map(|(i, p)| {
-            let top: Complex<f64> = transfer.zeros().iter().map(|z| p - z).product();
-            let bottom: Complex<f64> = poles.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, q)| p - q).product();
+        let residue = |i: usize| {
+            let others = poles.iter().enumerate().filter(|(j, _)| *j != i);
+            let top: Complex<f64> = transfer.zeros().iter().map(|z| poles[i] - z).product();
+            let bottom: Complex<f64> = others.map(|(_, q)| poles[i] - q).product();
             transfer.gain() * top / bottom
-        }).collect();
+        };
+        let terms: Vec<_> = poles.iter().enumerate().map(|(i, p)| (residue(i), *p)).collect();
+        let steady = transfer.dc_gain()?;
+        // Poles a tenth apart have residues that cancel; a few products for each sample: 1e-13 is passed once in 1e5.
+        let size = steady.abs() + terms.iter().map(|(r, p)| (r / p).norm()).sum::<f64>();
+        let impulse_size: f64 = terms.iter().map(|(r, _)| r.norm()).sum();
         let (step, impulse) = (transfer.step_response(period, 40)?, transfer.impulse_response(period, 40)?);
-        let sizes: [f64; 2] = [
-            transfer.dc_gain()?.abs() + residues.iter().zip(poles).map(|(r, p)| (r / p).norm()).sum::<f64>(),
-            residues.iter().map(|r| r.norm()).sum(),
-        ];
         for (k, (y, h)) in step.into_iter().zip(impulse).enumerate() {
             let t = k as f64 * period;
-            let part = |f: &dyn Fn(&Complex<f64>, &Complex<f64>) -> Complex<f64>| residues.iter().zip(poles).map(|(r, p)| f(r, p)).sum::<Complex<f64>>();
-            let expected = transfer.dc_gain()? + part(&|r, p| r / p * (p * t).exp()).re;
-            prop_assert!((y - expected).abs() <= 1e-11 * sizes[0], "{y} {expected} at {t}");
-            let expected = part(&|r, p| r * (p * t).exp()).re;
-            prop_assert!((h - expected).abs() <= 1e-11 * sizes[1], "{h} {expected} at {t}");
+            let expected = steady + terms.iter().map(|(r, p)| (r / p * (p * t).exp()).re).sum::<f64>();
+            prop_assert!((y - expected).abs() <= 1e-11 * size, "{y} {expected} at {t}");
+            let expected: f64 = terms.iter().map(|(r, p)| (r * (p * t).exp()).re).sum();
+            prop_assert!((h - expected).abs() <= 1e-11 * impulse_size, "{h} {expected} at {t}");
         }
     }
 
     #[test]
-    fn the_exact_step_is_the_limit_of_small_ones(transfer in transfer().prop_filter("4", |g| g.order() == 4)) {
+    fn the_exact_step_is_the_limit_of_small_ones(
+        transfer in prop_oneof![with_poles(4, 0), with_poles(2, 1), with_poles(0, 2)]
+    ) {
         let system = transfer.to_state_space::<4>()?;
         let mut small = Rk4::fixed(system, 64, 15.0)?;
         let mut held = transfer.held(0.05)?;
@@ -203,103 +207,9 @@ proptest! {
             let (exact, stepped) = (held.update(input), system.output(&state, &vector![input])[0]);
             size = size.max(exact.abs());
             // rho h < 0.01: (rho h)^4 / 120 a radian, and what a series of sections adds to it.
-            prop_assert!((exact - stepped).abs() <= 1e-6 * (size + transfer.gain()), "{exact} {stepped} at {k}");
+            prop_assert!((exact - stepped).abs() <= 1e-7 * (size + transfer.gain()), "{exact} {stepped} at {k}");
             state = small.advance(&state, &vector![input], 0.05)?;
         }
-    }
-}
-
-/// Three close real poles and two close pairs: relative spacing `1e-6`.
-const CLOSE: f64 = 1e-6;
-
-#[test]
-fn close_poles_keep_their_digits_where_a_companion_form_loses_them() {
-    let [a, b, c] = [-3.0, -3.0 * (1.0 + CLOSE), -3.0 * (1.0 - CLOSE)];
-    let transfer = TransferFunction::with_dc_gain(&[], &[a, b, c].map(real), 2.0).expect("valid");
-    let distance = |found: [Complex<f64>; 3]| {
-        [a, b, c].iter().fold(0.0_f64, |most, p| {
-            most.max(found.iter().map(|f| (f - p).norm()).fold(f64::INFINITY, f64::min))
-        })
-    };
-    let system = transfer.to_state_space::<3>().expect("finite");
-    assert!(distance(system.poles().expect("converges")) < 1e-15);
-    let again = TransferFunction::from_state_space(&system, 0, 0).expect("converges");
-    assert!(distance([again.poles()[0], again.poles()[1], again.poles()[2]]) < 1e-15);
-    let [_, c2, c1, c0] = transfer.denominator()[..] else { panic!("a cubic") };
-    let companion = matrix![-c2, -c1, -c0; 1.0, 0.0, 0.0; 0.0, 1.0, 0.0];
-    assert!(distance(eigenvalues(&companion).expect("converges")) > 1e-6);
-}
-
-#[test]
-fn a_step_through_close_lags() {
-    // The impulse response of two lags is e^(-a t) (1 - e^(-(b - a) t)) / (b - a), exact however close they are.
-    let (a, b) = (3.0, 3.0 * (1.0 + CLOSE));
-    let transfer = TransferFunction::new(&[], &[real(-a), real(-b)], 1.0).expect("valid");
-    let impulse = transfer.impulse_response(0.02, 200).expect("finite");
-    for (k, h) in impulse.into_iter().enumerate() {
-        let t = 0.02 * k as f64;
-        let expected = (-a * t).exp() * -(-(b - a) * t).exp_m1() / (b - a);
-        // Two hundred products; the largest value is 0.12.
-        assert!((h - expected).abs() < 1e-15, "{h} {expected}");
-    }
-    for w in [0.1, 3.0, 700.0] {
-        let s = Complex::new(0.0, w);
-        let expected = ((s + a) * (s + b)).inv();
-        let g = transfer.frequency_response(w).expect("no pole");
-        assert!((g - expected).norm() < 1e-15 * expected.norm());
-    }
-}
-
-#[test]
-fn an_impulse_through_close_vibrations() {
-    // sin(v t) / v convolved with sin(w t) / w by Gauss's rule on panels of a fifth of a radian.
-    let (v, w) = (40.0, 40.0 * (1.0 + CLOSE));
-    let poles = [pair(0.0, v), pair(0.0, w)].concat();
-    let transfer = TransferFunction::new(&[], &poles, v * w * v * w).expect("valid");
-    let period = 0.05;
-    let impulse = transfer.impulse_response(period, 40).expect("finite");
-    let gauss = [(0.0, 0.888_888_888_888_888_9), (0.774_596_669_241_483_4, 0.555_555_555_555_555_6)];
-    for (k, h) in impulse.into_iter().enumerate() {
-        let t = period * k as f64;
-        let panels = 20 * k * 4;
-        let half = 0.5 * t / panels.max(1) as f64;
-        let mut sum = 0.0;
-        for panel in 0..panels {
-            for (node, weight) in
-                gauss.iter().flat_map(|(x, w)| [(*x, *w), (-*x, if *x > 0.0 { *w } else { 0.0 })])
-            {
-                let u = half * (2.0 * panel as f64 + 1.0 + node);
-                sum += weight * half * (v * (t - u)).sin() * (w * u).sin();
-            }
-        }
-        // In resonance it grows as v w t / 2; three points on 1/40 rad are exact to 1e-14, and so are phases of 80 rad.
-        assert!((h - sum * v * w).abs() < 2e-13 * v * w * (1.0 + t), "{h} {}", sum * v * w);
-    }
-}
-
-#[test]
-fn order_and_frequency_far_apart() {
-    // Eight poles over eight decades, stepped for one second.
-    let poles: Roots = (-2..6).map(|k| real(-(10.0_f64.powi(k)))).collect();
-    let transfer = TransferFunction::with_dc_gain(&[], &poles, 1.0).expect("valid");
-    assert!((transfer.dc_gain().expect("no pole") - 1.0).abs() < 1e-14);
-    let step = transfer.step_response(1.0, 1000).expect("finite");
-    for (k, y) in step.iter().enumerate().skip(300) {
-        // After three seconds what is faster than 0.1 rad/s follows as a delay; the closed form of the two slow lags.
-        let partial: f64 = poles
-            .iter()
-            .enumerate()
-            .map(|(i, p)| {
-                let others: f64 = poles
-                    .iter()
-                    .enumerate()
-                    .filter(|(j, _)| *j != i)
-                    .map(|(_, q)| q.re / (q.re - p.re))
-                    .product();
-                others * (p.re * k as f64).exp()
-            })
-            .sum();
-        assert!((y - (1.0 - partial)).abs() < 1e-10, "{y} {}", 1.0 - partial);
     }
 }
 

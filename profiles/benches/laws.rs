@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use profiles::{Cosine, Cursor, Limits, Profile, SCurve, Sectioned, SnapLimited, Trapezoid};
+use profiles::{Cosine, Cursor, FivePhase, Limits, Profile, SCurve, Sectioned, SnapLimited, Trapezoid};
 use rsruckig::prelude::*;
 
 /// Moves that between them meet every regime: distance, velocity, acceleration, jerk, snap.
@@ -68,6 +68,20 @@ fn plan(criterion: &mut Criterion) {
             }
         });
     });
+    group.bench_function("five-phase", |b| {
+        b.iter(|| {
+            for (distance, limits) in &moves {
+                black_box(FivePhase::rest_to_rest(*black_box(distance), limits).expect("plan"));
+            }
+        });
+    });
+    group.bench_function("five-phase by jerk and phase time", |b| {
+        b.iter(|| {
+            for (distance, _) in &moves {
+                black_box(FivePhase::new(0.0, black_box(38_564.0), 1.0 + distance, 2.0).expect("plan"));
+            }
+        });
+    });
     group.bench_function("rsruckig, rest to rest", |b| {
         let inputs: Vec<InputParameter<1>> = moves
             .iter()
@@ -108,12 +122,16 @@ fn sample(criterion: &mut Criterion) {
     let s_curve = SCurve::rest_to_rest(0.04, &limits).expect("plan");
     let snap_limited = SnapLimited::rest_to_rest(0.04, &limits).expect("plan");
     let cosine = Cosine::rest_to_rest(0.04, &limits).expect("plan");
+    let five_phase = FivePhase::rest_to_rest(0.04, &limits).expect("plan");
     let mut group = criterion.benchmark_group("sample");
     let times = instants(s_curve.duration());
     group.throughput(Throughput::Elements(times.len() as u64));
     group.bench_function("s-curve at random times", |b| b.iter(|| at_random(black_box(&s_curve), &times)));
     group.bench_function("snap-limited at random times", |b| {
         b.iter(|| at_random(black_box(&snap_limited), &times))
+    });
+    group.bench_function("five-phase at random times", |b| {
+        b.iter(|| at_random(black_box(&five_phase), &times))
     });
     group.bench_function("cosine at random times", |b| b.iter(|| at_random(black_box(&cosine), &times)));
     group.bench_function("rsruckig at random times", |b| {
@@ -148,6 +166,8 @@ fn sample(criterion: &mut Criterion) {
     run_cursor(&mut group, "s-curve f32", Cursor::<_, f32>::new(s_curve, period).expect("clock"));
     run_cursor(&mut group, "snap-limited f64", Cursor::<_, f64>::new(snap_limited, period).expect("clock"));
     run_cursor(&mut group, "snap-limited f32", Cursor::<_, f32>::new(snap_limited, period).expect("clock"));
+    run_cursor(&mut group, "five-phase f64", Cursor::<_, f64>::new(five_phase, period).expect("clock"));
+    run_cursor(&mut group, "five-phase f32", Cursor::<_, f32>::new(five_phase, period).expect("clock"));
     run_cursor(&mut group, "cosine f64", Cursor::<_, f64>::new(cosine, period).expect("clock"));
     group.finish();
 }

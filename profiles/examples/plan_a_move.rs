@@ -1,7 +1,8 @@
 //! One move planned with every law: how long it takes, what it asks of the drive, what it leaves vibrating.
 
 use profiles::{
-    Cosine, Limits, Mode, Profile, SCurve, SnapLimited, Trapezoid, residual_vibration, write_c_table,
+    Cosine, FivePhase, Limits, Mode, Profile, SCurve, SnapLimited, Trapezoid, residual_vibration,
+    write_c_table,
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,11 +14,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let s_curve = SCurve::rest_to_rest(distance, &limits)?;
     let snap_limited = SnapLimited::rest_to_rest(distance, &limits)?;
     let cosine = Cosine::rest_to_rest(distance, &limits)?;
-    let laws: [(&str, &dyn Profile); 4] = [
+    let five_phase = FivePhase::rest_to_rest(distance, &limits)?;
+    let laws: [(&str, &dyn Profile); 5] = [
         ("trapezoid", &trapezoid),
         ("s-curve", &s_curve),
         ("snap-limited", &snap_limited),
         ("cosine", &cosine),
+        ("five-phase", &five_phase),
     ];
 
     println!(

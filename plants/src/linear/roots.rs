@@ -130,7 +130,7 @@ mod tests {
     fn roots_of_many_scales() {
         for scale in [1e-6, 1.0, 1e6] {
             let pair = |re: f64, im: f64| [Complex::new(re, im) * scale, Complex::new(re, -im) * scale];
-            let mut roots = vec![Complex::new(-1.0 * scale, 0.0), Complex::new(-40.0 * scale, 0.0)];
+            let mut roots = vec![Complex::new(-scale, 0.0), Complex::new(-40.0 * scale, 0.0)];
             roots.extend(pair(-0.3, 7.0));
             roots.extend(pair(-2.0, 90.0));
             let found = polynomial_roots(&expand(&roots)).expect("converges");

@@ -25,8 +25,8 @@ use crate::quantities::{Limits, Real, Sample};
 /// `2 (v_s + v) T + v T_3`. Jerk and speeds are signed, rad for m throughout where the axis turns.
 ///
 /// A motion with a start speed rests before it and after it: it jumps to `v_s` and stops dead from it, as a
-/// [`Trapezoid`](crate::Trapezoid) with speeds does. [`ramp_with_jerk`](Self::ramp_with_jerk) is the first half alone, on top of a
-/// speed that is there before.
+/// [`Trapezoid`](crate::Trapezoid) with speeds does. [`ramp_with_jerk`](Self::ramp_with_jerk) is the first half
+/// alone, on top of a speed that is there before.
 ///
 /// ```
 /// use profiles::{FivePhase, Profile};
@@ -160,14 +160,13 @@ impl FivePhase {
         if length == 0.0 {
             return Ok(Self(Piecewise::empty(0.0)));
         }
-        // Without a cruise h = 2 v T(v), for each of the two limits in turn.
-        let reached = Real::sqrt(0.5 * bounds.acceleration * length)
-            .min(Real::cbrt(0.25 * bounds.jerk * length * length));
         let limit = limits.along(distance).velocity().upper;
-        let speed = limit.min(reached);
+        let (at_limit, _) = bounds.phase(limit);
+        let cruises = limit < f64::INFINITY && 2.0 * limit * at_limit <= length;
+        let speed = if cruises { limit } else { bounds.reached(length).min(limit) };
         let (time, jerk) = bounds.phase(speed);
         let time = representable("phase time", time)?;
-        let down_start = if limit < reached { (length / speed).max(2.0 * time) } else { 2.0 * time };
+        let down_start = if cruises { (length / speed).max(2.0 * time) } else { 2.0 * time };
         covers(speed * down_start, length)?;
         let peak = speed.copysign(distance);
         Shape { start: 0.0, peak, jerk: jerk.copysign(distance), time }.motion(down_start, distance)
@@ -328,6 +327,17 @@ impl Bounds {
     fn of(limits: &Limits) -> Result<Self, PlanError> {
         let (acceleration, jerk) = symmetric_limits(limits)?;
         Ok(Self { acceleration, jerk: finite_limit("jerk", jerk)? })
+    }
+
+    /// The speed that a move of `length` reaches without a cruise, `h = 2 v T(v)`, m/s.
+    fn reached(&self, length: f64) -> f64 {
+        let Self { acceleration, jerk } = *self;
+        let to_acceleration = acceleration / jerk;
+        if length >= 2.0 * acceleration * (to_acceleration * to_acceleration) {
+            Real::sqrt(0.5 * acceleration * length)
+        } else {
+            Real::cbrt(0.25 * jerk * length * length)
+        }
     }
 
     /// The shortest phase time in which a ramp gains `change`, s, and its jerk, m/s^3.
