@@ -5,7 +5,7 @@ mod window;
 
 use core::f64::consts::TAU;
 
-use profiles::Real;
+use profiles::{Complex, Real};
 use realfft::RealFftPlanner;
 
 use crate::error::SignalError;
@@ -41,6 +41,8 @@ pub struct Spectrum {
     length: usize,
     period: f64,
     amplitudes: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    transform: Vec<Complex<f64>>,
 }
 
 /// The amplitude spectrum of a record sampled every `period` s.
@@ -110,13 +112,13 @@ pub fn amplitude_spectrum(
         length,
     })?;
     let unit = scale / (count * options.window.coherent_gain());
-    let amplitude = |(k, bin): (usize, &profiles::Complex<f64>)| {
+    let amplitude = |(k, bin): (usize, &Complex<f64>)| {
         let sides = if k == 0 || 2 * k == length { 1.0 } else { 2.0 };
         sides * unit * Real::sqrt(bin.norm_sqr())
     };
     let amplitudes: Vec<f64> = bins.iter().enumerate().map(amplitude).collect();
     crate::signal::check(&amplitudes)?;
-    Ok(Spectrum { window: options.window, samples, length, period, amplitudes })
+    Ok(Spectrum { window: options.window, samples, length, period, amplitudes, transform: bins })
 }
 
 impl Spectrum {

@@ -4,13 +4,16 @@
 use identify::Hold;
 use profiles::Complex;
 
+type Parts = (f64, f64);
+
 /// `sum of residue / (s - pole)`; a pole with an imaginary part stands for its conjugate, too.
 pub(crate) struct Fractions {
     pub(crate) terms: Vec<(Complex<f64>, Complex<f64>)>,
 }
 
 impl Fractions {
-    pub(crate) fn new(terms: &[((f64, f64), (f64, f64))]) -> Self {
+    /// From poles and residues, each by its real and imaginary part.
+    pub(crate) fn new(terms: &[(Parts, Parts)]) -> Self {
         let complex = |(re, im)| Complex::new(re, im);
         Self { terms: terms.iter().map(|(pole, residue)| (complex(*pole), complex(*residue))).collect() }
     }
