@@ -3,7 +3,9 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use identify::{TransferFunctionOptions, fit_transfer_function};
+use identify::{
+    MovingAverage, SpectrumOptions, TransferFunctionOptions, amplitude_spectrum, fit_transfer_function,
+};
 use plants::{GaussianNoise, Noise};
 
 const PERIOD: f64 = 1.0 / 75.0;
@@ -27,6 +29,12 @@ fn identification(criterion: &mut Criterion) {
     });
     group.bench_function("two poles and a zero without noise", |b| {
         b.iter(|| fit_transfer_function(&input, black_box(&clean), PERIOD, &options));
+    });
+    group.bench_function("spectrum, Hann", |b| {
+        b.iter(|| amplitude_spectrum(black_box(&noisy), PERIOD, &SpectrumOptions::default()));
+    });
+    group.bench_function("moving average of 25", |b| {
+        b.iter(|| MovingAverage::new(25).and_then(|average| average.zero_phase(black_box(&noisy))));
     });
     group.finish();
 }

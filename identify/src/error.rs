@@ -82,6 +82,14 @@ pub enum SignalError {
         /// The last sample, s.
         last: f64,
     },
+    /// No bin of a spectrum above its neighbours within a band.
+    #[error("the spectrum has no peak from {lower} rad/s to {upper} rad/s")]
+    NoPeak {
+        /// Lower end of the band, rad/s.
+        lower: f64,
+        /// Upper end of the band, rad/s.
+        upper: f64,
+    },
     /// The last sample is outside the band.
     #[error("the signal does not settle: at its end it is {error} from the target, the band is {band}")]
     NotSettled {

@@ -9,6 +9,7 @@ mod peaks;
 mod response_class;
 mod signal;
 mod sinusoids;
+mod spectrum;
 mod transfer_function;
 
 pub use decrement::LogarithmicDecrement;
@@ -19,6 +20,7 @@ pub use peaks::{Peak, Peaks};
 pub use response_class::{ClassifiedResponse, ResponseClass, ResponseClassifier};
 pub use signal::Signal;
 pub use sinusoids::{DampedSinusoids, DecayEstimate, ModeEstimate, SinusoidOptions, fit_damped_sinusoids};
+pub use spectrum::{SpectralPeak, Spectrum, SpectrumOptions, Window, amplitude_spectrum};
 pub use transfer_function::{
     Hold, RootEstimate, TransferFunctionFit, TransferFunctionOptions, fit_transfer_function,
 };

@@ -81,7 +81,7 @@ impl MovingAverage {
     /// not finite.
     pub fn zero_phase(&self, values: &[f64]) -> Result<Vec<f64>, SignalError> {
         check(values)?;
-        if self.length % 2 == 0 {
+        if self.length.is_multiple_of(2) {
             return Err(SignalError::Length {
                 quantity: "a window with a middle",
                 range: "odd",
@@ -139,7 +139,7 @@ fn means(values: &[f64], length: usize) -> impl Iterator<Item = f64> {
             *value = sum;
         });
     }
-    let whole = move |start: usize| start % length == 0;
+    let whole = move |start: usize| start.is_multiple_of(length);
     to_border.into_iter().zip(from_border.into_iter().skip(length - 1)).enumerate().map(
         move |(start, (end_of_block, start_of_next))| {
             if whole(start) { start_of_next } else { end_of_block + start_of_next }

@@ -1,7 +1,11 @@
 //! Options and results survive being written.
 #![cfg(feature = "serde")]
 
-use identify::{DampedSinusoids, ResponseClassifier, SinusoidOptions, fit_damped_sinusoids};
+use identify::{
+    DampedSinusoids, MovingAverage, ResponseClassifier, SinusoidOptions, SpectrumOptions,
+    TransferFunctionFit, TransferFunctionOptions, amplitude_spectrum, fit_damped_sinusoids,
+    fit_transfer_function,
+};
 
 #[test]
 fn round_trips() {
@@ -26,4 +30,24 @@ fn a_mode_that_cannot_be_is_refused() {
     let bad = r#"{"modes":[{"mode":{"angular_frequency":-1.0,"damping_ratio":0.1},"amplitude":1.0,"phase":0.0,
         "frequency_deviation":0.0,"damping_deviation":0.0}],"decays":[],"offset":0.0,"fit":1.0,"noise":0.0}"#;
     assert!(serde_json::from_str::<DampedSinusoids>(bad).is_err());
+}
+
+#[test]
+fn transfer_functions_spectra_and_filters() {
+    let options = TransferFunctionOptions::new(1, 0);
+    let text = serde_json::to_string(&options).expect("writes");
+    assert_eq!(serde_json::from_str::<TransferFunctionOptions>(&text).expect("reads"), options);
+    let output: Vec<f64> = (0..60).map(|n| 1.0 - (-0.1 * f64::from(n)).exp()).collect();
+    let fit = fit_transfer_function(&[1.0; 60], &output, 0.1, &options).expect("fits");
+    let text = serde_json::to_string(&fit).expect("writes");
+    let read: TransferFunctionFit = serde_json::from_str(&text).expect("reads");
+    // Reading may round the last digit.
+    assert!((read.poles[0].real - fit.poles[0].real).abs() < 1e-15);
+    let options = SpectrumOptions::default();
+    let text = serde_json::to_string(&options).expect("writes");
+    assert_eq!(serde_json::from_str::<SpectrumOptions>(&text).expect("reads"), options);
+    let spectrum = amplitude_spectrum(&output, 0.1, &options).expect("valid");
+    assert!(serde_json::to_string(&spectrum).expect("writes").contains("amplitudes"));
+    assert_eq!(serde_json::from_str::<MovingAverage>(r#"{"length":3}"#).expect("reads").length(), 3);
+    assert!(serde_json::from_str::<MovingAverage>(r#"{"length":0}"#).is_err());
 }
