@@ -50,8 +50,9 @@ fn swarms(criterion: &mut Criterion) {
         group.bench_function("argmin's", |b| {
             b.iter(|| {
                 let ends = (vec![-5.0; dimensions], vec![5.0; dimensions]);
-                let solver = particleswarm::ParticleSwarm::<Vec<f64>, f64, _>::new(black_box(ends), particles)
-                    .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(1));
+                let solver =
+                    particleswarm::ParticleSwarm::<Vec<f64>, f64, _>::new(black_box(ends), particles)
+                        .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(1));
                 Executor::new(Sphere, solver).configure(|state| state.max_iters(iterations)).run()
             });
         });
