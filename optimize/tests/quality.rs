@@ -9,10 +9,10 @@ use optimize::{Schedule, SwarmOptions, Topology};
 const FUNCTIONS: [Function; 4] = [SPHERE, ROSENBROCK, RASTRIGIN, ACKLEY];
 const SEEDS: u64 = 20;
 
-/// Medians over the seeds: ours and argmin's.
-fn medians(function: Function, dimensions: usize, options: SwarmOptions) -> (f64, f64) {
+/// Medians over so many seeds: ours and argmin's.
+fn medians(function: Function, dimensions: usize, options: SwarmOptions, seeds: u64) -> (f64, f64) {
     let over = |run: fn(Function, usize, SwarmOptions, u64) -> f64| {
-        median((0..SEEDS).map(|seed| run(function, dimensions, options, seed)).collect())
+        median((0..seeds).map(|seed| run(function, dimensions, options, seed)).collect())
     };
     (over(Function::ours), over(Function::theirs))
 }
@@ -32,7 +32,10 @@ fn known_optima_are_found_from_every_seed() {
 fn no_function_is_searched_worse_than_by_argmin() {
     for (dimensions, particles, iterations) in [(2, 50, 30), (2, 40, 200), (10, 40, 200), (30, 60, 300)] {
         for function in FUNCTIONS {
-            let (ours, theirs) = medians(function, dimensions, SwarmOptions::new(particles, iterations));
+            // Ties are both at the optimum to the last bit.
+            let (ours, theirs) =
+                medians(function, dimensions, SwarmOptions::new(particles, iterations), SEEDS);
+            println!("{:10} {dimensions:2}: ours {ours:9.2e}, argmin's {theirs:9.2e}", function.name);
             assert!(ours <= theirs, "{} in {dimensions} dimensions: {ours} {theirs}", function.name);
         }
     }
@@ -41,17 +44,17 @@ fn no_function_is_searched_worse_than_by_argmin() {
 #[test]
 fn many_local_optima_are_searched_better_than_by_argmin() {
     let options = SwarmOptions::new(400, 1000);
-    let (ours, theirs) = medians(RASTRIGIN, 30, options);
+    let (ours, theirs) = medians(RASTRIGIN, 30, options, 7);
     println!("Rastrigin in 30 dimensions, 400 x 1000: ours {ours}, argmin's {theirs}");
-    // Measured 47.8 and 88.6; argmin's own is checked so that the comparison stays one with a swarm that works.
-    assert!(ours < 55.0 && theirs > 75.0 && theirs < 100.0, "{ours} {theirs}");
+    // Argmin's is checked from below too, so that the comparison stays one with a swarm that works.
+    assert!(ours < 50.0 && theirs > 75.0 && theirs < 100.0, "{ours} {theirs}");
     let scheduled = SwarmOptions {
         inertia: Schedule::Linear { from: 0.9, to: 0.4 },
         cognitive: Schedule::Linear { from: 2.5, to: 0.5 },
         social: Schedule::Linear { from: 0.5, to: 2.5 },
         ..options
     };
-    let best = median((0..SEEDS).map(|seed| RASTRIGIN.ours(30, scheduled, seed)).collect());
+    let best = median((0..7).map(|seed| RASTRIGIN.ours(30, scheduled, seed)).collect());
     println!("with schedules: {best}");
     assert!(best < 30.0, "{best}");
 }

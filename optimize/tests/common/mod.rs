@@ -4,7 +4,7 @@
 
 use std::f64::consts::{E, TAU};
 
-use argmin::core::{CostFunction, Error, Executor, State};
+use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::particleswarm;
 use optimize::{ParticleSwarm, Swarm, SwarmOptions};
 use profiles::{Interval, Real};
