@@ -60,7 +60,8 @@ impl Default for SwarmOptions {
 
 impl SwarmOptions {
     /// The defaults for a number of particles and of iterations: inertia `1 / (2 ln 2)`, both pulls `1/2 + ln 2`, one
-    /// leader for all, reflection at the bounds, no stop but the last iteration.
+    /// leader for all, reflection at the bounds, a start at rest, moves of at most a fifth of the box, no stop but the
+    /// last iteration.
     ///
     /// # References
     /// M. Clerc, "Standard particle swarm optimisation", 2012, <https://hal.science/hal-00764996>: the factors.
@@ -75,8 +76,8 @@ impl SwarmOptions {
             social: pull,
             topology: Topology::Global,
             boundary: Boundary::Reflect,
-            velocity_limit: 1.0,
-            initial_velocity: InitialVelocity::Uniform,
+            velocity_limit: 0.2,
+            initial_velocity: InitialVelocity::Zero,
             target: None,
             stall: None,
         }

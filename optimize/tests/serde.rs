@@ -1,0 +1,121 @@
+//! A run that was cut goes on to the same bits; options survive being written.
+#![cfg(feature = "serde")]
+#![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
+
+mod common;
+
+use argmin::core::checkpointing::{Checkpoint, CheckpointingFrequency};
+use argmin::core::observers::{Observe, ObserverMode};
+use argmin::core::{Error, Executor, State};
+use argmin::core::{KV, PopulationState};
+use common::{Function, RASTRIGIN};
+use optimize::{Boundary, FitnessWeights, ParticleSwarm, Schedule, Stall, Swarm, SwarmOptions, Topology};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+fn options() -> [SwarmOptions; 2] {
+    let plain = SwarmOptions::new(24, 60);
+    let stall = Some(Stall { iterations: 50, absolute: 1e-3, relative: 0.1 });
+    [
+        SwarmOptions { inertia: Schedule::Linear { from: 0.9, to: 0.4 }, target: Some(-1.0), ..plain },
+        SwarmOptions { topology: Topology::Ring { reach: 2 }, boundary: Boundary::Absorb, stall, ..plain },
+    ]
+}
+
+fn swarm(options: SwarmOptions) -> Swarm {
+    Swarm::new(&RASTRIGIN.bounds(5), options, 11).expect("valid")
+}
+
+type Population = PopulationState<Vec<f64>, f64>;
+
+/// The last checkpoint, as the bytes that a file would hold.
+#[derive(Clone, Default)]
+struct Bytes(Rc<RefCell<Option<Vec<u8>>>>);
+
+impl Checkpoint<ParticleSwarm, Population> for Bytes {
+    fn save(&self, solver: &ParticleSwarm, state: &Population) -> Result<(), Error> {
+        *self.0.borrow_mut() = Some(postcard::to_stdvec(&(solver, state))?);
+        Ok(())
+    }
+    fn load(&self) -> Result<Option<(ParticleSwarm, Population)>, Error> {
+        Ok(self.0.borrow().as_deref().map(postcard::from_bytes).transpose()?)
+    }
+    fn frequency(&self) -> CheckpointingFrequency {
+        CheckpointingFrequency::Every(7)
+    }
+}
+
+/// Ends a run as a power cut would: between two checkpoints, with an error.
+struct Killer(u64);
+
+impl Observe<Population> for Killer {
+    fn observe_iter(&mut self, state: &Population, _kv: &KV) -> Result<(), Error> {
+        if state.get_iter() == self.0 { Err(Error::msg("killed")) } else { Ok(()) }
+    }
+}
+
+fn executor(problem: Function, options: SwarmOptions) -> Executor<Function, ParticleSwarm, Population> {
+    Executor::new(problem, ParticleSwarm::from(swarm(options))).configure(|state| state.counting(true))
+}
+
+#[test]
+fn a_killed_run_goes_on_as_if_nothing_had_been() {
+    for options in options() {
+        let straight = executor(RASTRIGIN, options).run().expect("runs");
+        for killed_at in [7, 30, 55] {
+            let checkpoint = Bytes::default();
+            let cut = executor(RASTRIGIN, options)
+                .checkpointing(checkpoint.clone())
+                .add_observer(Killer(killed_at), ObserverMode::Always)
+                .run();
+            assert!(cut.is_err() && checkpoint.0.borrow().is_some());
+            let resumed = executor(RASTRIGIN, options).checkpointing(checkpoint).run().expect("runs");
+            assert_eq!(resumed.solver.swarm(), straight.solver.swarm());
+            // Best point, costs, iterations and counts of evaluations.
+            let (resumed, straight) = (resumed.state(), straight.state());
+            assert_eq!(resumed.get_best_param(), straight.get_best_param());
+            assert_eq!(resumed.get_best_cost().to_bits(), straight.get_best_cost().to_bits());
+            assert_eq!(resumed.get_iter(), straight.get_iter());
+            assert_eq!(resumed.get_func_counts(), straight.get_func_counts());
+            assert_eq!(resumed.get_func_counts().get("cost_count"), Some(&(24 * 61)));
+        }
+    }
+}
+
+#[test]
+fn a_swarm_that_does_not_fit_is_not_read() {
+    let mut value = serde_json::to_value(swarm(options()[0])).expect("writes");
+    let read = |value: &serde_json::Value| serde_json::from_value::<Swarm>(value.clone());
+    assert_eq!(read(&value).expect("reads"), swarm(options()[0]));
+    for (path, bad) in [
+        ("/positions/3/1", serde_json::json!(77.0)),
+        ("/positions/3", serde_json::json!([0.0])),
+        ("/velocities", serde_json::json!([0.0])),
+        ("/best_positions", serde_json::json!([])),
+        ("/best_costs", serde_json::json!([])),
+        ("/options/particles", serde_json::json!(0)),
+        ("/options/velocity_limit", serde_json::json!(1.5)),
+        ("/bounds/0/lower", serde_json::json!(9.0)),
+        ("/generations", serde_json::json!(4)),
+    ] {
+        let place = value.pointer_mut(path).expect("a part");
+        let good = std::mem::replace(place, bad);
+        assert!(read(&value).is_err(), "{path}");
+        *value.pointer_mut(path).expect("a part") = good;
+    }
+}
+
+#[test]
+fn options_read_as_written() {
+    for options in options() {
+        let text = serde_json::to_string(&options).expect("writes");
+        assert_eq!(serde_json::from_str::<SwarmOptions>(&text).expect("reads"), options);
+    }
+    let partly = serde_json::from_str::<SwarmOptions>(r#"{"particles": 50, "iterations": 30}"#);
+    assert_eq!(partly.expect("reads"), SwarmOptions::new(50, 30));
+    assert!(serde_json::from_str::<SwarmOptions>(r#"{"particle": 50}"#).is_err());
+    let weights = FitnessWeights::new(1.0, 2.0, 3.0, 4.0).expect("valid");
+    let text = serde_json::to_string(&weights).expect("writes");
+    assert_eq!(serde_json::from_str::<FitnessWeights>(&text).expect("reads"), weights);
+    assert!(serde_json::from_str::<FitnessWeights>(&text.replace("2.0", "-2.0")).is_err());
+}
