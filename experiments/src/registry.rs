@@ -3,8 +3,11 @@
 use crate::experiment::Experiment;
 
 /// Every paper and study, in the order they are listed, run and shown.
-pub const EXPERIMENTS: &[Experiment] =
-    &[crate::papers::acceleration_curves::EXPERIMENT, crate::papers::delay_filter::EXPERIMENT];
+pub const EXPERIMENTS: &[Experiment] = &[
+    crate::papers::acceleration_curves::EXPERIMENT,
+    crate::papers::delay_filter::EXPERIMENT,
+    crate::papers::belt_pso::EXPERIMENT,
+];
 
 /// The experiments that `ids` name, in the order of `experiments`; all of them when `ids` is empty.
 ///

@@ -3,12 +3,13 @@
 use anyhow::{Context as _, Result};
 use identify::Signal;
 use optimize::{Cost, simplex};
-use plants::{DiscreteStateSpace, TransferFunction};
 use plants::nalgebra::{SVector, Vector1};
+use plants::{DiscreteStateSpace, TransferFunction};
 use profiles::Real;
 
 use super::setup::{
-    BAND, COMMAND, JERK, PEAK, PHASE, SETTLINGS, STEP, TARGET, TRAPEZOID_PEAK, held, s_curve, speed, trapezoid,
+    BAND, COMMAND, JERK, PEAK, PHASE, SETTLINGS, STEP, TARGET, TRAPEZOID_PEAK, held, s_curve, speed,
+    trapezoid,
 };
 
 /// This file, from the root of the repository.
@@ -20,6 +21,7 @@ pub(super) struct Drive {
     pub(super) damping: f64,
     /// Time constant of the zero, s.
     pub(super) lead: f64,
+    pub(super) transfer: TransferFunction,
     sampled: DiscreteStateSpace<2, 1, 1>,
 }
 
@@ -29,7 +31,7 @@ impl Drive {
         let frequency = PEAK / Real::sqrt((1.0 - damping) * (1.0 + damping));
         let transfer = TransferFunction::second_order(TARGET / COMMAND, frequency, damping, lead)?;
         let sampled = transfer.to_state_space::<2>()?.discretise(STEP)?;
-        Ok(Self { damping, lead, sampled })
+        Ok(Self { damping, lead, transfer, sampled })
     }
 
     /// What the load does under a command held over every step, pulse/s.

@@ -48,7 +48,7 @@ pub(super) const HORIZON: f64 = 6.0;
 /// Step of the simulation, s.
 pub(super) const STEP: f64 = 1e-3;
 /// Weight of the error, 1/(pulse), of the command, 1/(pulse), of the overshoot, 1/s, and the penalty.
-pub(super) const WEIGHTS: [f64; 4] = [3e-4, 0.0, 300.0, 100.0];
+pub(super) const WEIGHTS: [f64; 4] = [3e-4, 0.0, 100.0, 100.0];
 
 /// The S-curve up to the speed of `jerk` and `phase` and beyond the horizon.
 pub(super) fn s_curve(jerk: f64, phase: f64) -> Result<FivePhase> {

@@ -8,7 +8,8 @@ use profiles::Interval;
 
 use super::drive::{Drive, figures};
 use super::setup::{
-    COMMAND, FACTORS, GOOD_ENOUGH, LARGEST_JERK, LONGEST_PHASE, STEP, SWARM, TARGET, WEIGHTS, held, s_curve, speed,
+    COMMAND, FACTORS, GOOD_ENOUGH, LARGEST_JERK, LONGEST_PHASE, STEP, SWARM, TARGET, WEIGHTS, held, s_curve,
+    speed,
 };
 
 /// This file, from the root of the repository.
@@ -64,38 +65,29 @@ pub(super) fn swarm(tuning: &Tuning<'_>, seed: u64, iterations: u64) -> Result<T
         ..SwarmOptions::new(SWARM.0, iterations)
     };
     // The smallest are far from anything that moves, and none is zero.
-    let bounds = [Interval::new(1e-3 * LARGEST_JERK, LARGEST_JERK), Interval::new(1e-3 * LONGEST_PHASE, LONGEST_PHASE)];
+    let bounds = [
+        Interval::new(1e-3 * LARGEST_JERK, LARGEST_JERK),
+        Interval::new(1e-3 * LONGEST_PHASE, LONGEST_PHASE),
+    ];
     let result = Executor::new(tuning, ParticleSwarm::new(&bounds, options, seed)?).run()?;
     let swarm = result.solver.swarm();
     let (best, cost) = swarm.best();
     let [jerk, phase] = *best else { anyhow::bail!("two dimensions") };
-    let history = swarm.history().iter().filter_map(|p| Some((p.iteration as f64, p.best.value()?))).collect();
+    let history =
+        swarm.history().iter().filter_map(|p| Some((p.iteration as f64, p.best.value()?))).collect();
     Ok(Tuned { jerk, phase, fitness: cost.value().context("no curve found")?, history })
 }
 
-/// The least fitness on a grid of phase times and peak speeds, refined about its best point until it is finer than the swarm
-/// can tell: the fitness, the jerk and the phase time.
-pub(super) fn grid(tuning: &Tuning<'_>) -> Result<(f64, f64, f64)> {
-    let (mut speeds, mut phases) = ((0.5 * COMMAND, 1.5 * COMMAND), (0.2, LONGEST_PHASE));
-    let mut best = (f64::INFINITY, 0.0, 0.0);
-    for _ in 0..5 {
-        let place = |(from, to): (f64, f64), k: u32| from + (to - from) * f64::from(k) / 20.0;
-        for (i, j) in (0..=20).flat_map(|i| (0..=20).map(move |j| (i, j))) {
-            let (speed, phase) = (place(speeds, i), place(phases, j));
-            let fitness = tuning.fitness(speed / (phase * phase), phase)?;
-            if fitness < best.0 {
-                best = (fitness, speed, phase);
-            }
-        }
-        let around = |centre: f64, (from, to): (f64, f64)| {
-            let half = 0.1 * (to - from);
-            (centre - half, (centre + half).min(LONGEST_PHASE.max(centre + half)))
-        };
-        (speeds, phases) = (around(best.1, speeds), around(best.2, phases));
-        phases.1 = phases.1.min(LONGEST_PHASE);
+/// The least fitness on a grid of peak speeds within 5 % of the printed command and phase times from 0.3 to 1.3 s, a hundred
+/// steps each.
+pub(super) fn grid(tuning: &Tuning<'_>, steps: u32) -> Result<f64> {
+    let place = |from: f64, to: f64, k: u32| from + (to - from) * f64::from(k) / f64::from(steps);
+    let mut best = f64::INFINITY;
+    for (i, j) in (0..=steps).flat_map(|i| (0..=steps).map(move |j| (i, j))) {
+        let (speed, phase) = (COMMAND * place(0.95, 1.05, i), place(0.3, 1.3, j));
+        best = best.min(tuning.fitness(speed / (phase * phase), phase)?);
     }
-    let (fitness, speed, phase) = best;
-    Ok((fitness, speed / (phase * phase), phase))
+    Ok(best)
 }
 
 /// Overshoot and settling against the phase time of a curve to the printed command.
