@@ -103,6 +103,28 @@ fn a_search_without_an_answer_says_so() {
 }
 
 #[test]
+fn a_failure_attracts_nobody() {
+    // All pull is to the own best: who has only failed keeps its speed, though a bound may turn it.
+    let options = SwarmOptions {
+        inertia: Schedule::Constant(1.0),
+        social: Schedule::Constant(0.0),
+        initial_velocity: InitialVelocity::Uniform,
+        velocity_limit: 0.01,
+        ..SwarmOptions::new(4, 10)
+    };
+    let mut swarm = Swarm::new(&[Interval::symmetric(1.0); 2], options, 9).expect("valid");
+    let speeds = |swarm: &Swarm| -> Vec<Vec<f64>> {
+        swarm.velocities().map(|v| v.iter().map(|v| v.abs()).collect()).collect()
+    };
+    let start = speeds(&swarm);
+    for _ in 0..5 {
+        swarm.tell(&[Cost::Failed, Cost::Ok(1.0), Cost::Failed, Cost::Failed]).expect("four");
+    }
+    let kept: Vec<bool> = speeds(&swarm).iter().zip(&start).map(|(now, start)| now == start).collect();
+    assert_eq!(kept, [true, false, true, true]);
+}
+
+#[test]
 fn searches_stop_for_their_reason() {
     let plain = SwarmOptions::new(20, 500);
     let run = |options| {
