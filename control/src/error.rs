@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::range::OutOfRange;
+
 /// A PID controller that cannot be.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
@@ -150,4 +152,16 @@ pub enum FieldOrientedError {
         /// Period of the current loop.
         current_loop: f64,
     },
+}
+
+impl From<OutOfRange> for FeedforwardError {
+    fn from(OutOfRange { which, range, value }: OutOfRange) -> Self {
+        Self::Parameter { which, range, value }
+    }
+}
+
+impl From<OutOfRange> for CurrentLoopError {
+    fn from(OutOfRange { which, range, value }: OutOfRange) -> Self {
+        Self::Parameter { which, range, value }
+    }
 }

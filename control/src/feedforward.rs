@@ -3,6 +3,7 @@
 use profiles::{Real, Sample};
 
 use crate::error::FeedforwardError;
+use crate::range::{not_negative, positive};
 
 /// Feedforward of the derivatives of a reference `r`:
 ///
@@ -170,27 +171,6 @@ impl<F: Real> Feedforward<F> {
 
 fn finite<F: Real>(which: &'static str, value: F) -> Result<F, FeedforwardError> {
     if value.is_finite() { Ok(value) } else { Err(FeedforwardError::Gain { which, value: value.to_f64() }) }
-}
-
-fn positive<F: Real>(which: &'static str, value: F) -> Result<(), FeedforwardError> {
-    in_range(which, "positive", value, value > F::ZERO)
-}
-
-fn not_negative<F: Real>(which: &'static str, value: F) -> Result<(), FeedforwardError> {
-    in_range(which, "not negative", value, value >= F::ZERO)
-}
-
-fn in_range<F: Real>(
-    which: &'static str,
-    range: &'static str,
-    value: F,
-    inside: bool,
-) -> Result<(), FeedforwardError> {
-    if inside && value.is_finite() {
-        Ok(())
-    } else {
-        Err(FeedforwardError::Parameter { which, range, value: value.to_f64() })
-    }
 }
 
 #[cfg(test)]

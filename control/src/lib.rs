@@ -8,6 +8,7 @@ mod feedforward;
 mod field_oriented;
 mod finite;
 mod pid;
+mod range;
 mod transform;
 
 pub use cascade::{Cascade, CascadeInput, CascadeOutput, CascadeState};

@@ -3,6 +3,7 @@
 use profiles::Real;
 
 use crate::error::CurrentLoopError;
+use crate::range::{in_range, not_negative, positive};
 
 /// The gains of a PI controller: of current in volts, of velocity in amperes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -212,25 +213,4 @@ fn checked<F: Real>(axis: &'static str, gains: PiGains<F>) -> Result<PiGains<F>,
         return Err(CurrentLoopError::IntegralGain { axis, value: gains.ki.to_f64() });
     }
     Ok(gains)
-}
-
-fn positive<F: Real>(which: &'static str, value: F) -> Result<(), CurrentLoopError> {
-    in_range(which, "positive", value, value > F::ZERO)
-}
-
-fn not_negative<F: Real>(which: &'static str, value: F) -> Result<(), CurrentLoopError> {
-    in_range(which, "not negative", value, value >= F::ZERO)
-}
-
-fn in_range<F: Real>(
-    which: &'static str,
-    range: &'static str,
-    value: F,
-    inside: bool,
-) -> Result<(), CurrentLoopError> {
-    if inside && value.is_finite() {
-        Ok(())
-    } else {
-        Err(CurrentLoopError::Parameter { which, range, value: value.to_f64() })
-    }
 }
