@@ -99,3 +99,41 @@ pub(super) fn reconstruct(late: bool) -> Result<Reconstruction> {
         evaluations: found.evaluations,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The step response of a vibration with a lead in closed form, about the command as a step at half its rise.
+    #[test]
+    fn the_response_is_that_of_the_closed_form() {
+        let drive = Drive::new(0.2014, 0.0921).expect("drive");
+        let output = drive.respond(&held(trapezoid(COMMAND)));
+        let frequency = PEAK / (1.0_f64 - 0.2014 * 0.2014).sqrt();
+        let (decay, lead) = (0.2014 * frequency, 0.0921);
+        // y = T (1 - e^(-d t) (cos w t + (d - lead W^2) / w sin w t))
+        let sine = (decay - lead * frequency * frequency) / PEAK;
+        for (k, y) in output.iter().enumerate().skip(10) {
+            let t = k as f64 * STEP - 0.5e-3;
+            let exact = TARGET * (1.0 - (-decay * t).exp() * ((PEAK * t).cos() + sine * (PEAK * t).sin()));
+            // A ramp of h instead of a step is h^2 / 24 of the second derivative off.
+            assert!((y - exact).abs() < 1e-5 * TARGET, "{t}: {y} and {exact}");
+        }
+    }
+
+    #[test]
+    fn the_figures_are_those_recomputed_for_the_printed_response() {
+        let drive = Drive::new(0.2014, 0.0921).expect("drive");
+        let (overshoot, settling) = figures(&drive.respond(&held(trapezoid(COMMAND)))).expect("figures");
+        assert!(
+            (overshoot - 0.660).abs() < 5e-4 && (settling - 1.755).abs() < 2e-3,
+            "{overshoot} {settling}"
+        );
+        let curve = s_curve(JERK, PHASE).expect("curve");
+        let (overshoot, settling) = figures(&drive.respond(&held(speed(&curve)))).expect("figures");
+        assert!(
+            (overshoot - 0.0173).abs() < 5e-4 && (settling - 1.690).abs() < 3e-3,
+            "{overshoot} {settling}"
+        );
+    }
+}

@@ -99,3 +99,33 @@ pub(super) fn course(drive: &Drive, phases: &[f64]) -> Result<Vec<(f64, f64, f64
     };
     phases.iter().map(one).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_gives_one_answer_and_every_seed_the_same_within_a_part_in_a_thousand() {
+        let drive = Drive::new(0.2014, 0.0921).expect("drive");
+        let tuning = Tuning::new(&drive).expect("weights");
+        let of = |seed| swarm(&tuning, seed, SWARM.1).expect("found");
+        let (first, again) = (of(1), of(1));
+        assert_eq!([first.jerk, first.phase, first.fitness], [again.jerk, again.phase, again.fitness]);
+        assert_eq!(first.history.len(), 1 + SWARM.1 as usize);
+        let best = grid(&tuning, 100).expect("grid");
+        for seed in 1..=5 {
+            let found = of(seed);
+            // The grid is 0.1 % of the speed and 10 ms wide.
+            assert!(found.fitness < 1.001 * best, "seed {seed}: {} and {best}", found.fitness);
+        }
+    }
+
+    #[test]
+    fn a_curve_that_hardly_moves_is_fined() {
+        let drive = Drive::new(0.2014, 0.0921).expect("drive");
+        let tuning = Tuning::new(&drive).expect("weights");
+        let [.., penalty] = WEIGHTS;
+        assert!(tuning.fitness(100.0, 1.0).expect("runs") > penalty);
+        assert!(tuning.fitness(COMMAND, 1.0).expect("runs") < penalty);
+    }
+}
