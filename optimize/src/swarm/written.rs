@@ -48,6 +48,14 @@ impl TryFrom<WrittenSwarm> for Swarm {
                 }
             }
         }
+        if stalled > generations {
+            let (given, needed) = (stalled, generations);
+            return Err(SwarmError::Written {
+                quantity: "generations without an improvement",
+                given: given as usize,
+                needed: needed as usize,
+            });
+        }
         if let Some(&value) = velocities.iter().find(|v| !v.is_finite()) {
             return Err(SwarmError::Number { quantity: "a velocity", range: "finite", value });
         }

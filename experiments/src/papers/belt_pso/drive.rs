@@ -49,9 +49,17 @@ impl Drive {
 
 /// Overshoot as a part of what is wanted, and settling time in s.
 pub(super) fn figures(output: &[f64]) -> Result<(f64, f64)> {
-    let signal = Signal::sampled(output, STEP)?;
-    Ok((signal.overshoot(0.0, TARGET)?, signal.settling_time(TARGET, BAND * TARGET)?))
+    figures_in(output, BAND)
 }
+
+fn figures_in(output: &[f64], band: f64) -> Result<(f64, f64)> {
+    let signal = Signal::sampled(output, STEP)?;
+    Ok((signal.overshoot(0.0, TARGET)?, signal.settling_time(TARGET, band * TARGET)?))
+}
+
+/// The search settles into a band this much narrower: at its best the drive would otherwise stand where a swing just touches
+/// the band, and its settling time would hang on a rounding.
+const MARGIN: f64 = 0.99;
 
 /// A reconstruction: the drive, how much later than the record the move starts, s, and what the search left.
 pub(super) struct Reconstruction {
@@ -74,7 +82,7 @@ pub(super) fn reconstruct(late: bool) -> Result<Reconstruction> {
         let [damping, lead] = [unknowns.first(), unknowns.get(1)].map(|x| x.copied().unwrap_or(f64::NAN));
         let start = unknowns.get(2).copied().unwrap_or(0.0);
         let drive = Drive::new(damping, lead)?;
-        let (overshoot, settling) = figures(&drive.respond(&near_step))?;
+        let (overshoot, settling) = figures_in(&drive.respond(&near_step), MARGIN * BAND)?;
         let mut cost = ((overshoot - (TRAPEZOID_PEAK / TARGET - 1.0)) / SLACK.0).powi(2)
             + ((settling + start - SETTLINGS[0]) / SLACK.1).powi(2);
         if late {
@@ -118,6 +126,20 @@ mod tests {
             let exact = TARGET * (1.0 - (-decay * t).exp() * ((PEAK * t).cos() + sine * (PEAK * t).sin()));
             // A ramp of h instead of a step is h^2 / 24 of the second derivative off.
             assert!((y - exact).abs() < 1e-5 * TARGET, "{t}: {y} and {exact}");
+        }
+    }
+
+    #[test]
+    fn the_reconstruction_does_not_hang_on_a_rounding() {
+        let Drive { damping, lead, .. } = reconstruct(false).expect("found").drive;
+        let near_step = held(trapezoid(COMMAND));
+        let settling = |damping: f64, lead: f64| {
+            figures(&Drive::new(damping, lead).expect("drive").respond(&near_step)).expect("figures").1
+        };
+        let there = settling(damping, lead);
+        for part in [1e-4, -1e-4] {
+            assert!((settling(damping * (1.0 + part), lead) - there).abs() < 1e-3);
+            assert!((settling(damping, lead * (1.0 + part)) - there).abs() < 1e-3);
         }
     }
 

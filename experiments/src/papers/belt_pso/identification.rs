@@ -14,7 +14,7 @@ pub(super) const FILE: &str = file!();
 /// Steps of the simulation to a sample of the log.
 const FINE: usize = 16;
 /// Standard deviation of what disturbs the measured speed, pulse/s: 2 % of the command, not printed.
-const NOISE: f64 = 0.02 * NEAR_STEP;
+pub(super) const NOISE: f64 = 0.02 * NEAR_STEP;
 /// Samples of rest ahead of the move, so that the average has a past, not printed.
 const REST: usize = 30;
 /// Samples of the moving average, not printed.
@@ -38,7 +38,7 @@ impl Log {
     }
 }
 
-/// What the encoder at the load shows of the near-step: whole pulses in every sample, and noise.
+/// What the encoder at the load shows of the near-step: the whole pulses of every sample as a speed, and noise on the speed.
 pub(super) fn log(drive: &Drive, seed: u64) -> Result<Log> {
     let step = 1.0 / (LOG_RATE * FINE as f64);
     let samples = (HORIZON * LOG_RATE).round() as usize;

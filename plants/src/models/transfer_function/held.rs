@@ -93,10 +93,15 @@ impl TransferFunction {
     /// The outputs at the samples of an input that is held between them, from rest.
     ///
     /// # Errors
-    /// As [`held`](Self::held).
+    /// As [`held`](Self::held); an input that is not finite, or an output that leaves the range of numbers.
     pub fn respond(&self, input: &[f64], period: f64) -> Result<Vec<f64>, ModelError> {
         let mut held = self.held(period)?;
-        Ok(input.iter().map(|value| held.update(*value)).collect())
+        let mut outputs = Vec::with_capacity(input.len());
+        for &value in input {
+            finite("an input", value)?;
+            outputs.push(finite("an output", held.update(value))?);
+        }
+        Ok(outputs)
     }
 
     /// The response to a step of one, from the instant of the step on, so many samples a period in s apart.
@@ -118,5 +123,31 @@ impl TransferFunction {
         let mut held = self.held(period)?;
         held.state = self.realised().b;
         Ok((0..samples).map(|_| held.update(0.0)).collect())
+    }
+}
+
+fn finite(parameter: &'static str, value: f64) -> Result<f64, ModelError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(ModelError::Parameter { parameter, range: "finite", value })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Complex;
+
+    #[test]
+    fn nothing_that_is_not_finite_goes_in_or_comes_out() {
+        let lag = TransferFunction::with_dc_gain(&[], &[Complex::new(-2.0, 0.0)], 3.0).expect("stable");
+        for value in [f64::NAN, f64::INFINITY] {
+            let asked = lag.respond(&[1.0, value], 0.1);
+            assert!(matches!(asked, Err(ModelError::Parameter { parameter: "an input", .. })));
+        }
+        let runaway = TransferFunction::new(&[], &[Complex::new(700.0, 0.0)], 1.0).expect("a function");
+        let asked = runaway.respond(&[1.0; 8], 1.0);
+        assert!(matches!(asked, Err(ModelError::Parameter { parameter: "an output", .. })));
     }
 }
