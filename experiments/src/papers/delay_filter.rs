@@ -98,8 +98,7 @@ fn assumptions(found: &Found, outcome: &mut Outcome) {
          {velocity_integral:.6} A min/(r s), bandwidth of the current {current_bandwidth:.4} rad/s, damping of the spring \
          {spring_damping:.8} N m s, of the load {load_damping:.8} N m s, settling band {:.7} % of the move. It minimises the \
          sum of ln(1 + d^2) over table 2, d the distance from print over 10 % of a damping ratio or settling time or 5 % of a \
-         frequency: {:.2}, and {:.2} at its first start. The bandwidth is kept below half a radian to a tick. The two \
-         dampings matter little and are not told apart by the table.",
+         frequency: {:.2}, and {:.2} at its first start. The bandwidth is kept below half a radian to a tick.",
         found.evaluations,
         100.0 * found.band,
         found.cost,
@@ -108,8 +107,8 @@ fn assumptions(found: &Found, outcome: &mut Outcome) {
     outcome.note(
         "Chosen where the paper is silent: three pole pairs (only gain times torque constant shows), all loops at 10 kHz, the \
          position of the motor fed back, velocity gain in A per r/min, the position of the load looked at. The paper has PI in \
-         all three loops; the position loop here is P alone, for no integral gain is printed and a motor that holds its \
-         position needs none.",
+         all three loops; the position loop here is P alone: no integral gain is printed, and the integral of the velocity \
+         loop leaves no standing error.",
     );
     outcome.note(
         "A settling time jumps by half a swing where a peak leaves the band: loops that differ in the fourth digit may differ by \
@@ -121,7 +120,7 @@ fn assumptions(found: &Found, outcome: &mut Outcome) {
     );
     outcome.note(
         "Every frequency the paper prints in Hz is in rad/s: only so does its equation (8) give its table 3. Equation (6) lacks \
-         a minus sign in its exponent, the denominator of (8) one before its second term, and table 3 prints its delays in \
+         a minus sign in its exponent, and so does the denominator of (8) ahead of its cosine; table 3 prints its delays in \
          seconds under a head of milliseconds.",
     );
     outcome.note(
