@@ -29,8 +29,9 @@ impl Spectrum {
     /// The largest peak within a band in rad/s: a bin above its two neighbours, set between bins.
     ///
     /// The ratio of the bin to a neighbour gives the distance from the bin by the window's own transform, which is exact
-    /// for a sinusoid alone; the side is the one whose sinusoid explains both neighbours, phases included. What its image at the negative frequency adds falls with the distance of
-    /// the peak from both ends of the spectrum, all the faster for the smoother windows.
+    /// for a sinusoid alone; the side is the one whose sinusoid explains both neighbours, phases included. What its image
+    /// at the negative frequency adds falls with the distance of the peak from both ends of the spectrum, all the faster
+    /// for the smoother windows.
     ///
     /// # Errors
     /// No peak in the band, or a band that is NaN.

@@ -72,15 +72,20 @@ pub(super) fn other_classes(response: &Response, target: f64) -> Result<[(&'stat
     ])
 }
 
+/// The smallest amplitude of a mode that counts, as a part of the largest: below what an encoder of 20 bits shows.
+const SEEN: f64 = 1e-6;
+
 /// The modes of a fit of damped sinusoids to what follows `start` in s, the one that swings longest for its size first; none
-/// where there is none.
+/// where there is none. Without noise the fit goes on to describe its own rounding: what is below [`SEEN`] is not counted.
 pub(super) fn fitted(response: &Response, start: f64) -> Vec<Mode> {
     let tail = response.load.get(response.index(start)..).unwrap_or_default();
     let Ok(decay) = fit_damped_sinusoids(tail, response.period, &SinusoidOptions::default()) else {
         return Vec::new();
     };
     let lasting = decay.lasting_mode().map(|estimate| estimate.mode);
-    let others = decay.modes.iter().map(|estimate| estimate.mode).filter(|mode| Some(*mode) != lasting);
+    let largest = decay.modes.iter().map(|estimate| estimate.amplitude).fold(0.0, f64::max);
+    let seen = decay.modes.iter().filter(|estimate| estimate.amplitude > SEEN * largest);
+    let others = seen.map(|estimate| estimate.mode).filter(|mode| Some(*mode) != lasting);
     lasting.into_iter().chain(others).collect()
 }
 
