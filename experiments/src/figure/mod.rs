@@ -3,6 +3,7 @@
 //! The plotting library is named in `render.rs` and nowhere else.
 
 mod csv;
+mod legend;
 mod render;
 mod simplify;
 mod span;
@@ -21,13 +22,32 @@ pub struct Quantity {
     pub symbol: String,
     /// ASCII (`m/s^2`, `um`); empty for a pure number.
     pub unit: String,
+    /// Whether the axis runs in decades; all its values are then positive.
+    pub logarithmic: bool,
 }
 
 impl Quantity {
     /// `Quantity::new("velocity", "v", "m/s")`.
     #[must_use]
     pub fn new(name: &str, symbol: &str, unit: &str) -> Self {
-        Self { name: name.to_owned(), symbol: symbol.to_owned(), unit: unit.to_owned() }
+        let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
+        Self { name, symbol, unit, logarithmic: false }
+    }
+
+    /// The same on an axis of decades.
+    #[must_use]
+    pub fn logarithmic(self) -> Self {
+        Self { logarithmic: true, ..self }
+    }
+
+    /// Where a value stands on the axis: itself, or its decimal logarithm.
+    pub(crate) fn place(&self, value: f64) -> f64 {
+        if self.logarithmic { value.log10() } else { value }
+    }
+
+    /// Whether the axis has a place for a value.
+    fn takes(&self, value: f64) -> bool {
+        value.is_finite() && (!self.logarithmic || value > 0.0)
     }
 
     /// Time t in seconds.
@@ -225,15 +245,18 @@ impl Figure {
             ensure!(panel.columns().next().is_some(), "figure '{id}', panel '{y}' has no series");
             for (name, points) in panel.columns() {
                 ensure!(!points.is_empty(), "figure '{id}', panel '{y}', series '{name}' has no points");
-                if let Some(n) = points.iter().position(|(x, y)| !x.is_finite() || !y.is_finite()) {
-                    bail!("figure '{id}', panel '{y}', series '{name}': point {n} is not finite");
+                if let Some(n) = points.iter().position(|p| !self.x.takes(p.0) || !panel.y.takes(p.1)) {
+                    bail!(
+                        "figure '{id}', panel '{y}', series '{name}': point {n} is not finite, or not above zero on an \
+                         axis of decades"
+                    );
                 }
                 ensure!(names.insert((y, name)), "figure '{id}': two series '{name}' of '{y}'");
             }
-            let finite = panel.limits.iter().all(|l| l.value.is_finite());
-            ensure!(finite, "figure '{id}', panel '{y}': a limit is not finite");
+            let placed = panel.limits.iter().all(|l| panel.y.takes(l.value));
+            ensure!(placed, "figure '{id}', panel '{y}': a limit has no place on its axis");
             let ordered =
-                panel.bands.iter().all(|b| b.from.is_finite() && b.to.is_finite() && b.from <= b.to);
+                panel.bands.iter().all(|b| self.x.takes(b.from) && self.x.takes(b.to) && b.from <= b.to);
             ensure!(ordered, "figure '{id}', panel '{y}': a band does not end after it starts");
         }
         Ok(())
@@ -277,5 +300,11 @@ mod tests {
         assert!(problem(&figure(velocity()).panel(velocity())).contains("two series"));
         assert!(problem(&figure(velocity().limit(f64::NAN, ""))).contains("limit"));
         assert!(problem(&figure(velocity().band(1.0, 0.0, ""))).contains("band"));
+        let zero = Panel::new(Quantity::new("error", "", "m").logarithmic()).line(
+            "",
+            Role::Ours,
+            vec![(0.0, 1.0), (1.0, 0.0)],
+        );
+        assert!(problem(&figure(zero)).contains("point 1"));
     }
 }

@@ -13,6 +13,7 @@ use kuva::render::plots::Plot;
 use kuva::render::render::{Primitive, Scene, TextAnchor, render_multiple};
 use kuva::render::theme::Theme as Chrome;
 
+use super::legend::{self, LINE};
 use super::simplify::simplify;
 use super::span::Span;
 use super::{Figure, Panel, Role};
@@ -60,19 +61,18 @@ pub fn to_png(figure: &Figure) -> Result<Vec<u8>> {
 }
 
 const FONT: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
-const TEXT: u32 = 12;
+pub(super) const TEXT: u32 = 12;
 const TICK_TEXT: u32 = 11;
 /// Width of a letter over its size, of DejaVu Sans: the widest of the fonts named above.
-const LETTER: f64 = 0.6;
+pub(super) const LETTER: f64 = 0.6;
 /// Room above a panel for its label.
 const STRIP: f64 = 24.0;
 /// Room below the last panel for the ticks and the name of the x axis.
 const FOOT: f64 = 44.0;
-const LEGEND_LINE: f64 = 20.0;
 
-struct Style {
+pub(super) struct Style {
     chrome: Chrome,
-    ink: &'static str,
+    pub(super) ink: &'static str,
     muted: &'static str,
 }
 
@@ -94,7 +94,7 @@ impl Theme {
     }
 
     /// Okabe and Ito's colours; on dark the blue and the vermilion give way to the brighter ones of the set.
-    fn colour(self, role: Role) -> &'static str {
+    pub(super) fn colour(self, role: Role) -> &'static str {
         match (role, self) {
             (Role::Ours, Self::Light) => "#0072b2",
             (Role::Ours, Self::Dark) => "#56b4e9",
@@ -109,20 +109,21 @@ impl Theme {
 }
 
 /// Where things are, in px.
-struct Geometry {
-    width: f64,
-    left: f64,
+pub(super) struct Geometry {
+    pub(super) width: f64,
+    pub(super) left: f64,
     right: f64,
     plot: f64,
 }
 
 fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
     figure.check()?;
+    let figure = &placed(figure);
     let style = theme.style();
     let geometry = geometry(figure, width);
-    let legend = place(entries(figure, theme), &geometry);
+    let legend = legend::of(figure, theme, &geometry);
     let legend_lines = legend.last().map_or(0.0, |entry| entry.2 + 1.0);
-    let top = 6.0 + LEGEND_LINE * legend_lines;
+    let top = 6.0 + LINE * legend_lines;
     let step = STRIP + geometry.plot;
     let height = top + step * figure.panels.len() as f64 + FOOT;
 
@@ -131,13 +132,14 @@ fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
     scene.text_color = Some(style.ink.to_owned());
     scene.font_family = Some(FONT.to_owned());
     for (entry, x, line) in legend {
-        draw_entry(&mut scene, &entry, geometry.left + x, 6.0 + LEGEND_LINE * (line + 0.5), &style);
+        legend::draw_entry(&mut scene, &entry, geometry.left + x, 6.0 + LINE * (line + 0.5), &style);
     }
     let xs = figure.panels.iter().flat_map(|panel| {
         let data = panel.columns().flat_map(|(_, points)| points.iter().map(|(x, _)| *x));
         data.chain(panel.bands.iter().flat_map(|band| [band.from, band.to]))
     });
-    let x = Span::of(xs, 0.0, if width == Width::Wide { 8.0 } else { 4.0 });
+    let most = if width == Width::Wide { 8.0 } else { 4.0 };
+    let x = if figure.x.logarithmic { Span::of_decades(xs, most) } else { Span::of(xs, 0.0, most) };
     for (n, panel) in figure.panels.iter().enumerate() {
         let last = n + 1 == figure.panels.len();
         let y = panel_span(panel, if geometry.plot > 200.0 { 7.0 } else { 5.0 });
@@ -168,6 +170,21 @@ fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
     Ok(scene)
 }
 
+/// The figure with every value where it stands on its axis.
+fn placed(figure: &Figure) -> Figure {
+    let mut figure = figure.clone();
+    let x = figure.x.clone();
+    for panel in &mut figure.panels {
+        let y = panel.y.clone();
+        let series = panel.series.iter_mut().map(|s| &mut s.points);
+        let points = series.chain(panel.marks.iter_mut().map(|m| &mut m.points));
+        points.flatten().for_each(|point| *point = (x.place(point.0), y.place(point.1)));
+        panel.limits.iter_mut().for_each(|limit| limit.value = y.place(limit.value));
+        panel.bands.iter_mut().for_each(|b| (b.from, b.to) = (x.place(b.from), x.place(b.to)));
+    }
+    figure
+}
+
 fn geometry(figure: &Figure, width: Width) -> Geometry {
     let stacked = figure.panels.len() > 1;
     let (width, plot) = match width {
@@ -196,7 +213,8 @@ fn geometry(figure: &Figure, width: Width) -> Geometry {
 /// The vertical axis of a panel: all data and limits, and a little room.
 fn panel_span(panel: &Panel, ticks: f64) -> Span {
     let data = panel.columns().flat_map(|(_, points)| points.iter().map(|(_, y)| *y));
-    Span::of(data.chain(panel.limits.iter().map(|limit| limit.value)), 0.06, ticks)
+    let values = data.chain(panel.limits.iter().map(|limit| limit.value));
+    if panel.y.logarithmic { Span::of_decades(values, ticks) } else { Span::of(values, 0.06, ticks) }
 }
 
 fn layout(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, style: &Style, last: bool) -> Layout {
@@ -284,90 +302,14 @@ fn name_limits(scene: &mut Scene, panel: &Panel, y: Span, top: f64, geometry: &G
     }
 }
 
-/// What stands before a name in the legend.
-#[derive(Clone, Copy, PartialEq)]
-enum Swatch {
-    Line(&'static str),
-    Mark(usize),
-    Band,
-}
-
-/// Every named thing once; nothing where the labels of the panels say it all.
-fn entries(figure: &Figure, theme: Theme) -> Vec<(Swatch, String)> {
-    let mut entries: Vec<(Swatch, String)> = Vec::new();
-    for panel in &figure.panels {
-        let lines = panel.series.iter().map(|s| (Swatch::Line(theme.colour(s.role)), &s.name));
-        let marks = panel.marks.iter().enumerate().map(|(n, m)| (Swatch::Mark(n), &m.name));
-        let bands = panel.bands.iter().map(|b| (Swatch::Band, &b.name));
-        for (swatch, name) in lines.chain(marks).chain(bands) {
-            let entry = (swatch, name.clone());
-            if !name.is_empty() && !entries.contains(&entry) {
-                entries.push(entry);
-            }
-        }
-    }
-    let one_line = matches!(entries.as_slice(), [(Swatch::Line(_), _)]);
-    if one_line { Vec::new() } else { entries }
-}
-
-type Placed = ((Swatch, String), f64, f64);
-
-/// Sets the entries side by side above the panels; x from the left edge of the panels and the line of each.
-fn place(entries: Vec<(Swatch, String)>, geometry: &Geometry) -> Vec<Placed> {
-    let across = geometry.width - geometry.left - 8.0;
-    let (mut x, mut line) = (0.0, 0.0);
-    let mut placed = Vec::with_capacity(entries.len());
-    for entry in entries {
-        let wide = 46.0 + LETTER * f64::from(TEXT) * entry.1.chars().count() as f64;
-        if x > 0.0 && x + wide > across + 18.0 {
-            (x, line) = (0.0, line + 1.0);
-        }
-        placed.push((entry, x, line));
-        x += wide;
-    }
-    placed
-}
-
-fn draw_entry(scene: &mut Scene, (swatch, name): &(Swatch, String), x: f64, y: f64, style: &Style) {
-    let square = |x: f64, width: f64, fill: &str, opacity: f64| Primitive::Rect {
-        x,
-        y: y - width.min(10.0) / 2.0,
-        width,
-        height: width.min(10.0),
-        fill: Color::from(fill),
-        stroke: None,
-        stroke_width: None,
-        opacity: Some(opacity),
-    };
-    match *swatch {
-        Swatch::Line(colour) => scene.add(Primitive::Line {
-            x1: x,
-            y1: y,
-            x2: x + 20.0,
-            y2: y,
-            stroke: Color::from(colour),
-            stroke_width: 2.2,
-            stroke_dasharray: None,
-        }),
-        Swatch::Band => scene.add(square(x, 20.0, style.ink, 0.12)),
-        Swatch::Mark(n) if n % 3 == 1 => scene.add(square(x + 6.0, 8.0, style.ink, 1.0)),
-        Swatch::Mark(n) if n % 3 == 2 => {
-            text(scene, (x + 10.0, y + 4.5), "▲", TEXT, TextAnchor::Middle, style.ink);
-        }
-        Swatch::Mark(_) => scene.add(Primitive::Circle {
-            cx: x + 10.0,
-            cy: y,
-            r: 4.0,
-            fill: Color::from(style.ink),
-            fill_opacity: None,
-            stroke: None,
-            stroke_width: None,
-        }),
-    }
-    text(scene, (x + 26.0, y + 4.5), name, TEXT, TextAnchor::Start, style.ink);
-}
-
-fn text(scene: &mut Scene, (x, y): (f64, f64), content: &str, size: u32, anchor: TextAnchor, colour: &str) {
+pub(super) fn text(
+    scene: &mut Scene,
+    (x, y): (f64, f64),
+    content: &str,
+    size: u32,
+    anchor: TextAnchor,
+    colour: &str,
+) {
     let color = Some(Color::from(colour));
     scene.add(Primitive::Text {
         x,
