@@ -2,6 +2,7 @@
 #![doc = include_str!("../README.md")]
 
 mod cascade;
+mod contour;
 mod current;
 mod error;
 mod feedforward;
@@ -12,6 +13,9 @@ mod range;
 mod transform;
 
 pub use cascade::{Cascade, CascadeInput, CascadeOutput, CascadeState};
+pub use contour::{
+    CommandedPath, ContourBasis, ContourError, ContourFault, Coupled, CouplingError, CrossCoupling, PathFrame,
+};
 pub use current::{
     CurrentInput, CurrentLoop, CurrentLoopState, CurrentOutput, CurrentStatus, PiGains, Windings,
 };
