@@ -10,6 +10,7 @@ mod field_oriented;
 mod finite;
 mod pid;
 mod range;
+mod sliding;
 mod transform;
 
 pub use cascade::{Cascade, CascadeInput, CascadeOutput, CascadeState};
@@ -19,10 +20,16 @@ pub use contour::{
 pub use current::{
     CurrentInput, CurrentLoop, CurrentLoopState, CurrentOutput, CurrentStatus, PiGains, Windings,
 };
-pub use error::{CascadeError, CurrentLoopError, FeedforwardError, FieldOrientedError, PidError};
+pub use error::{
+    CascadeError, CurrentLoopError, FeedforwardError, FieldOrientedError, PidError, SlidingModeError,
+};
 pub use feedforward::Feedforward;
 pub use field_oriented::{FieldOriented, FieldOrientedInput, FieldOrientedOutput, FieldOrientedState};
 pub use pid::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidOutput, PidState, Status};
+pub use sliding::{
+    AxisModel, ReachingLaw, SlidingMode, SlidingModeInput, SlidingModeOutput, SlidingModeState,
+    SlidingSurface, Switching,
+};
 pub use transform::{AlphaBeta, Dq, Phases, Rotation};
 
 #[cfg(test)]

@@ -1,0 +1,188 @@
+//! One tick of sliding mode control.
+
+use profiles::{Real, Sample};
+
+use super::config::SlidingMode;
+use super::logarithm::LogMagnitude;
+use crate::pid::Status;
+
+/// The memory of one sliding mode controller; every number in it is finite.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SlidingModeState<F = f64> {
+    /// The integral as a contribution to the output.
+    integral: F,
+    /// The last valid output.
+    output: F,
+}
+
+impl<F: Real> SlidingModeState<F> {
+    /// No integral and no past.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Forgets everything.
+    pub fn reset(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The last valid output; zero before the first tick.
+    #[must_use]
+    pub fn output(&self) -> F {
+        self.output
+    }
+
+    /// The contribution of the integral to the output, in the unit of the output.
+    #[must_use]
+    pub fn integral(&self) -> F {
+        self.integral
+    }
+}
+
+/// What a sliding mode controller is told at a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SlidingModeInput<F = f64> {
+    /// The error `e = r - x`, m or rad.
+    pub error: F,
+    /// Its rate `e' = r' - v`, m/s.
+    pub error_rate: F,
+    /// Acceleration `r''` of the reference, m/s^2.
+    pub reference_acceleration: F,
+    /// Measured position `x`, m.
+    pub position: F,
+    /// Measured or estimated velocity `v`, m/s.
+    pub velocity: F,
+    /// The load `d` as far as it is known, m/s^2; zero without an observer.
+    pub load: F,
+    /// The output that the actuator was left with at the previous tick, see
+    /// [`PidInput::realised`](crate::PidInput::realised); `None`: what this controller gave.
+    pub realised: Option<F>,
+}
+
+impl<F: Real> SlidingModeInput<F> {
+    /// The errors of `position` and `velocity` against `reference`, no known load, the previous output realised as given.
+    #[inline]
+    #[must_use]
+    pub fn new(reference: &Sample<F>, position: F, velocity: F) -> Self {
+        Self {
+            error: reference.position - position,
+            error_rate: reference.velocity - velocity,
+            reference_acceleration: reference.acceleration,
+            position,
+            velocity,
+            load: F::ZERO,
+            realised: None,
+        }
+    }
+
+    /// The same with another error and rate, those of a cross-coupling for one.
+    #[inline]
+    #[must_use]
+    pub fn with_error(self, error: F, error_rate: F) -> Self {
+        Self { error, error_rate, ..self }
+    }
+}
+
+/// What a sliding mode controller answers at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlidingModeOutput<F = f64> {
+    /// The output `u`: always finite and within the limits.
+    pub output: F,
+    /// The surface `s` at the error given; zero where the output is held.
+    pub surface: F,
+    /// How the output came about.
+    pub status: Status,
+}
+
+impl<F: Real> SlidingMode<F> {
+    /// One tick. With the model `x'' = -a v - b x + k u + d`, the surface `s(e, e')` and its law `s' = -rate(s, e)`:
+    ///
+    /// ```text
+    /// I_k = I_(k-1) + k4 h e_k / k
+    /// u_k = (r'' + a v + b x + w(e, e') + rate(s, e) - d) / k + I_k  within the limits
+    /// ```
+    ///
+    /// where `e'' = -w` keeps `s` as it is: `w = (ds/de) e'` for the linear and the terminal surface, and
+    /// `w = beta (q/p) |e'|^(2 - p/q) sgn e' (1 + g |e|^(g - 1) / alpha)` for the non-singular ones, the last factor with
+    /// the fast term only. On those the axis obeys `s' = -(ds/de') rate` with `ds/de' >= 0`, which is zero where the error
+    /// stands still: `s^2` does not grow, but [`ReachingLaw::reaching_time`](crate::ReachingLaw::reaching_time) does not
+    /// hold.
+    ///
+    /// `I_k` takes of `k4 h e_k / k` only what does not move the output beyond a limit, and nothing in a direction in
+    /// which the actuator fell short of `u_(k-1)`.
+    ///
+    /// An input that is not finite, or finite ones whose sum overflows, leaves `state` untouched to the bit and returns the
+    /// last valid output (zero before the first tick) within the limits, with [`Status::Held`]. Nothing branches on the
+    /// data but that; the logarithm and the exponential of `libm` choose among a few ranges.
+    #[inline(always)]
+    #[must_use]
+    pub fn update(
+        &self,
+        state: &mut SlidingModeState<F>,
+        input: SlidingModeInput<F>,
+    ) -> SlidingModeOutput<F> {
+        let (surface, known) = self.known(&input);
+        let realised = input.realised.unwrap_or(state.output);
+        let shortfall = state.output - realised;
+
+        let wanted = self.integral_step * input.error;
+        let short_above = (wanted > F::ZERO) & (shortfall > F::ZERO);
+        let short_below = (wanted < F::ZERO) & (shortfall < F::ZERO);
+        let increment = if short_above | short_below { F::ZERO } else { wanted };
+        let before = known + state.integral;
+        let kept = increment.clamped((self.lower - before).min(F::ZERO), (self.upper - before).max(F::ZERO));
+        let integral = state.integral + kept;
+        let unlimited = before + increment;
+
+        // A term that is not finite makes a sum with it so; the integral is bounded by the sum and the limits.
+        let remembered = known + integral;
+        if !(unlimited.is_finite() & remembered.is_finite() & realised.is_finite()) {
+            return self.hold(state);
+        }
+        let output = self.limited(unlimited);
+        *state = SlidingModeState { integral, output };
+        let status = if unlimited < self.lower {
+            Status::AtLower
+        } else if unlimited > self.upper {
+            Status::AtUpper
+        } else {
+            Status::Regular
+        };
+        SlidingModeOutput { output, surface, status }
+    }
+
+    /// The surface, and the output without its integral.
+    #[inline(always)]
+    fn known(&self, input: &SlidingModeInput<F>) -> (F, F) {
+        let log_error = LogMagnitude::of(input.error);
+        let point = self.prepared.at(input.error, input.error_rate, log_error);
+        let rate = self.law.rate_at(point.value, log_error);
+        let wanted = input.reference_acceleration + point.demand + rate;
+        let effort = self.model.effort(wanted, input.position, input.velocity);
+        (point.value, self.inverse_gain * (effort - input.load))
+    }
+
+    /// Prepares `state`, so far driven by `old`, for this configuration, between two ticks: the integral takes up what the
+    /// two laws differ by at `input`, so that the output there is the same before and after to rounding, as far as the new
+    /// limits allow. Where the new `k4` is zero the integral stays as a constant bias until
+    /// [`SlidingModeState::reset`]. A shift that overflows is not made.
+    pub fn take_over(&self, old: &Self, state: &mut SlidingModeState<F>, input: &SlidingModeInput<F>) {
+        let integral = state.integral + (old.known(input).1 - self.known(input).1);
+        if integral.is_finite() {
+            state.integral = integral;
+        }
+    }
+
+    /// A finite `output` brought into the limits.
+    #[inline]
+    fn limited(&self, output: F) -> F {
+        let raised = if output < self.lower { self.lower } else { output };
+        if raised > self.upper { self.upper } else { raised }
+    }
+
+    #[cold]
+    fn hold(&self, state: &SlidingModeState<F>) -> SlidingModeOutput<F> {
+        SlidingModeOutput { output: self.limited(state.output), surface: F::ZERO, status: Status::Held }
+    }
+}
