@@ -18,7 +18,7 @@ use super::vector::{add_scaled, check, dot, scaled, subtract, zip};
 /// use control::PathFrame;
 ///
 /// // A circle of 0.5 m, with its point on the x axis, at 2 m/s and with 3 m/s^2 along the path.
-/// let frame = PathFrame::osculating([0.0, 2.0], [-8.0, 3.0])?.ok_or("at rest")?;
+/// let frame = PathFrame::osculating([0.0_f64, 2.0], [-8.0, 3.0])?.ok_or("at rest")?;
 /// assert_eq!((frame.tangent(), frame.normal()), ([0.0, 1.0], [-1.0, 0.0]));
 /// assert!((frame.curvature() - 2.0).abs() < 1e-15); // 8 m/s^2 over 4 m^2/s^2
 /// assert_eq!(PathFrame::between([1.0, 2.0], [1.0, 2.0]), Ok(None));
