@@ -196,6 +196,12 @@ pub enum SlidingModeError {
         /// The `q` given.
         q: u32,
     },
+    /// Implicit sampling of a law for which it has no closed form.
+    #[error("implicit sampling takes the constant or the exponential law with the sign itself")]
+    NoImplicitForm,
+    /// A non-singular surface where an acceleration must change the surface one to one.
+    #[error("super-twisting takes a linear or a terminal surface")]
+    NonsingularSurface,
     /// A sampling period that is not positive and finite, s.
     #[error("the sampling period must be positive and finite, got {0} s")]
     Period(f64),
@@ -221,4 +227,26 @@ impl From<OutOfRange> for SlidingModeError {
     fn from(OutOfRange { which, range, value }: OutOfRange) -> Self {
         Self::Parameter { which, range, value }
     }
+}
+
+/// A disturbance observer that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ObserverError {
+    /// A parameter that is not positive and finite.
+    #[error("the {which} must be positive and finite, got {value}")]
+    Parameter {
+        /// Which parameter.
+        which: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// Numbers so large or so small that a coefficient has no representation.
+    #[error("the configuration leaves the range of its number type: {quantity} would be {value}")]
+    Range {
+        /// The coefficient.
+        quantity: &'static str,
+        /// What came out.
+        value: f64,
+    },
 }

@@ -8,6 +8,7 @@ mod error;
 mod feedforward;
 mod field_oriented;
 mod finite;
+mod observer;
 mod pid;
 mod range;
 mod sliding;
@@ -21,14 +22,16 @@ pub use current::{
     CurrentInput, CurrentLoop, CurrentLoopState, CurrentOutput, CurrentStatus, PiGains, Windings,
 };
 pub use error::{
-    CascadeError, CurrentLoopError, FeedforwardError, FieldOrientedError, PidError, SlidingModeError,
+    CascadeError, CurrentLoopError, FeedforwardError, FieldOrientedError, ObserverError, PidError,
+    SlidingModeError,
 };
 pub use feedforward::Feedforward;
 pub use field_oriented::{FieldOriented, FieldOrientedInput, FieldOrientedOutput, FieldOrientedState};
+pub use observer::{DisturbanceEstimate, DisturbanceInput, DisturbanceObserver, DisturbanceObserverState};
 pub use pid::{AntiWindup, DerivativeOn, Pid, PidGains, PidInput, PidOutput, PidState, Status};
 pub use sliding::{
-    AxisModel, ReachingLaw, SlidingMode, SlidingModeInput, SlidingModeOutput, SlidingModeState,
-    SlidingSurface, Switching,
+    AxisModel, ReachingLaw, Sampling, SlidingMode, SlidingModeInput, SlidingModeOutput, SlidingModeState,
+    SlidingSurface, SuperTwisting, SuperTwistingState, Switching,
 };
 pub use transform::{AlphaBeta, Dq, Phases, Rotation};
 

@@ -2,10 +2,13 @@
 
 use profiles::Real;
 
+use super::actuator::OutputLimits;
 use super::model::AxisModel;
 use super::reaching::ReachingLaw;
+use super::sampling::Sampling;
 use super::surface::{Prepared, SlidingSurface};
 use crate::error::SlidingModeError;
+use crate::range::not_negative;
 
 /// A checked sliding mode controller: a surface, the law by which it is reached, and the axis; any number of axes may
 /// share it, each with its own [`SlidingModeState`](crate::SlidingModeState).
@@ -44,8 +47,8 @@ pub struct SlidingMode<F = f64> {
     pub(super) model: AxisModel<F>,
     period: F,
     integral_gain: F,
-    pub(super) lower: F,
-    pub(super) upper: F,
+    pub(super) sampling: Sampling,
+    pub(super) limits: OutputLimits<F>,
     // What the tick needs, computed once.
     pub(super) prepared: Prepared<F>,
     /// `1 / k`.
@@ -55,7 +58,8 @@ pub struct SlidingMode<F = f64> {
 }
 
 impl<F: Real> SlidingMode<F> {
-    /// Surface, reaching law, model of the axis and sampling period `h` in s; no integral, output unlimited.
+    /// Surface, reaching law, model of the axis and sampling period `h` in s; explicit sampling, no integral, output
+    /// unlimited.
     ///
     /// # Errors
     /// A period that is not positive and finite, or a surface whose slope or gains leave the range of `F`.
@@ -74,8 +78,8 @@ impl<F: Real> SlidingMode<F> {
             model,
             period,
             integral_gain: F::ZERO,
-            lower: F::from_f64(f64::NEG_INFINITY),
-            upper: F::from_f64(f64::INFINITY),
+            sampling: Sampling::Explicit,
+            limits: OutputLimits::none(),
             prepared: surface.prepared(period)?,
             inverse_gain: F::ONE / model.gain(),
             integral_step: F::ZERO,
@@ -89,7 +93,7 @@ impl<F: Real> SlidingMode<F> {
     /// A gain that is negative, infinite or NaN, or one that leaves the range of `F` when multiplied by the period and
     /// divided by the gain of the axis.
     pub fn with_integral_compensation(self, k4: F) -> Result<Self, SlidingModeError> {
-        crate::range::not_negative("integral gain", k4)?;
+        not_negative("integral gain", k4)?;
         let integral_step = k4 * self.period * self.inverse_gain;
         if !integral_step.is_finite() {
             let quantity = "integral gain times the period over the gain of the axis";
@@ -98,16 +102,24 @@ impl<F: Real> SlidingMode<F> {
         Ok(Self { integral_gain: k4, integral_step, ..self })
     }
 
+    /// Replaces how the reaching law is sampled.
+    ///
+    /// # Errors
+    /// [`Sampling::Implicit`] with a law other than the constant and the exponential one, or with another switching than
+    /// the sign.
+    pub fn with_sampling(self, sampling: Sampling) -> Result<Self, SlidingModeError> {
+        if sampling == Sampling::Implicit && self.law.signed_linear().is_none() {
+            return Err(SlidingModeError::NoImplicitForm);
+        }
+        Ok(Self { sampling, ..self })
+    }
+
     /// Replaces the output limits, in the unit of the output; infinity means unlimited.
     ///
     /// # Errors
     /// A lower limit that does not lie below the upper one.
     pub fn with_output_limits(self, lower: F, upper: F) -> Result<Self, SlidingModeError> {
-        if lower < upper {
-            Ok(Self { lower, upper, ..self })
-        } else {
-            Err(SlidingModeError::OutputLimits { lower: lower.to_f64(), upper: upper.to_f64() })
-        }
+        Ok(Self { limits: OutputLimits::new(lower, upper)?, ..self })
     }
 
     /// The surface.
@@ -140,10 +152,16 @@ impl<F: Real> SlidingMode<F> {
         self.integral_gain
     }
 
+    /// How the reaching law is sampled.
+    #[must_use]
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+
     /// The lower and the upper output limit.
     #[must_use]
     pub fn output_limits(&self) -> (F, F) {
-        (self.lower, self.upper)
+        (self.limits.lower, self.limits.upper)
     }
 
     /// Within this distance of zero a terminal surface is a straight line, m, see [`SlidingSurface::terminal`]; `None` for

@@ -3,6 +3,7 @@
 use profiles::Real;
 
 use super::logarithm::LogMagnitude;
+use super::sampling::{set_valued_sign, sign};
 use crate::error::SlidingModeError;
 use crate::range::{in_range, not_negative, positive};
 
@@ -209,17 +210,21 @@ impl<F: Real> ReachingLaw<F> {
         }
     }
 
+    /// `(k, eps)` of a law `k s + eps sgn s`.
+    #[inline(always)]
+    pub(super) fn signed_linear(&self) -> Option<(F, F)> {
+        match (self.kind, self.switching) {
+            (Kind::Constant { eps }, Switching::Sign) => Some((F::ZERO, eps)),
+            (Kind::Exponential { k, eps }, Switching::Sign) => Some((k, eps)),
+            _ => None,
+        }
+    }
+
     #[inline(always)]
     fn sign(&self, surface: F) -> F {
         match self.switching {
-            Switching::Sign => {
-                let sign = F::ONE.copysign(surface);
-                if surface == F::ZERO { F::ZERO } else { sign }
-            }
-            Switching::Saturation { width } => {
-                let scaled = surface / width;
-                if scaled.abs() < F::ONE { scaled } else { F::ONE.copysign(scaled) }
-            }
+            Switching::Sign => sign(surface),
+            Switching::Saturation { width } => set_valued_sign(surface, width),
             Switching::Smooth { width } => surface / (surface.abs() + width),
         }
     }

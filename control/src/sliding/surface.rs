@@ -217,6 +217,8 @@ pub(super) struct Point<F> {
     pub(super) value: F,
     /// The `w` for which `e'' = -w` keeps `s`, m/s^2.
     pub(super) demand: F,
+    /// `ds/de'`, what an acceleration does to `s`.
+    pub(super) leverage: F,
 }
 
 impl<F: Real> Prepared<F> {
@@ -224,11 +226,14 @@ impl<F: Real> Prepared<F> {
     #[inline(always)]
     pub(super) fn at(&self, error: F, error_rate: F, log_error: LogMagnitude<F>) -> Point<F> {
         match *self {
-            Self::Linear { c } => Point { value: error_rate + c * error, demand: c * error_rate },
+            Self::Linear { c } => {
+                Point { value: error_rate + c * error, demand: c * error_rate, leverage: F::ONE }
+            }
             Self::Terminal { alpha, beta, exponent, excess, guard, log_guard } => {
                 let chord = beta * log_error.at_least(log_guard).to_power(excess);
                 let slope = if error.abs() < guard { chord } else { exponent * chord };
-                Point { value: error_rate + (alpha + chord) * error, demand: (alpha + slope) * error_rate }
+                let value = error_rate + (alpha + chord) * error;
+                Point { value, demand: (alpha + slope) * error_rate, leverage: F::ONE }
             }
             Self::Nonsingular { error_gain, g, rate_share, excess, rate_gain } => {
                 let chord = LogMagnitude::of(error_rate).to_power(excess);
@@ -236,6 +241,7 @@ impl<F: Real> Prepared<F> {
                 Point {
                     value: error + fast * error + rate_share * chord * error_rate,
                     demand: rate_gain * (F::ONE + g * fast) * (error_rate / chord),
+                    leverage: rate_share * (F::ONE + excess) * chord,
                 }
             }
         }

@@ -5,6 +5,8 @@ use profiles::Real;
 use super::config::SlidingMode;
 use super::model::AxisModel;
 use super::reaching::{self, ReachingLaw, Switching};
+use super::sampling::Sampling;
+use super::super_twisting::SuperTwisting;
 use super::surface::{self, SlidingSurface};
 use crate::error::SlidingModeError;
 
@@ -107,6 +109,8 @@ pub(super) struct UncheckedSlidingMode<F> {
     model: AxisModel<F>,
     period: F,
     #[serde(default)]
+    sampling: Sampling,
+    #[serde(default)]
     integral_gain: F,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lower: Option<F>,
@@ -118,8 +122,10 @@ impl<F: Real> TryFrom<UncheckedSlidingMode<F>> for SlidingMode<F> {
     type Error = SlidingModeError;
     fn try_from(unchecked: UncheckedSlidingMode<F>) -> Result<Self, SlidingModeError> {
         let mode = Self::new(unchecked.surface, unchecked.reaching, unchecked.model, unchecked.period)?
+            .with_sampling(unchecked.sampling)?
             .with_integral_compensation(unchecked.integral_gain)?;
-        mode.with_output_limits(unchecked.lower.unwrap_or(mode.lower), unchecked.upper.unwrap_or(mode.upper))
+        let (lower, upper) = mode.output_limits();
+        mode.with_output_limits(unchecked.lower.unwrap_or(lower), unchecked.upper.unwrap_or(upper))
     }
 }
 
@@ -130,9 +136,56 @@ impl<F: Real> From<SlidingMode<F>> for UncheckedSlidingMode<F> {
             reaching: mode.law(),
             model: mode.model(),
             period: mode.period(),
+            sampling: mode.sampling(),
             integral_gain: mode.integral_gain(),
-            lower: Some(mode.lower).filter(|limit| limit.is_finite()),
-            upper: Some(mode.upper).filter(|limit| limit.is_finite()),
+            lower: Some(mode.output_limits().0).filter(|limit| limit.is_finite()),
+            upper: Some(mode.output_limits().1).filter(|limit| limit.is_finite()),
+        }
+    }
+}
+
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    bound(serialize = "F: Real + serde::Serialize", deserialize = "F: Real + serde::Deserialize<'de>")
+)]
+pub(super) struct UncheckedSuperTwisting<F> {
+    surface: SlidingSurface<F>,
+    k1: F,
+    k2: F,
+    model: AxisModel<F>,
+    period: F,
+    #[serde(default)]
+    sampling: Sampling,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lower: Option<F>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    upper: Option<F>,
+}
+
+impl<F: Real> TryFrom<UncheckedSuperTwisting<F>> for SuperTwisting<F> {
+    type Error = SlidingModeError;
+    fn try_from(unchecked: UncheckedSuperTwisting<F>) -> Result<Self, SlidingModeError> {
+        let UncheckedSuperTwisting { surface, k1, k2, model, period, sampling, .. } = unchecked;
+        let twisting = Self::new(surface, k1, k2, model, period)?.with_sampling(sampling);
+        let (lower, upper) = twisting.output_limits();
+        twisting.with_output_limits(unchecked.lower.unwrap_or(lower), unchecked.upper.unwrap_or(upper))
+    }
+}
+
+impl<F: Real> From<SuperTwisting<F>> for UncheckedSuperTwisting<F> {
+    fn from(twisting: SuperTwisting<F>) -> Self {
+        let (k1, k2) = twisting.gains();
+        let (lower, upper) = twisting.output_limits();
+        Self {
+            surface: twisting.surface(),
+            k1,
+            k2,
+            model: twisting.model(),
+            period: twisting.period(),
+            sampling: twisting.sampling(),
+            lower: Some(lower).filter(|limit| limit.is_finite()),
+            upper: Some(upper).filter(|limit| limit.is_finite()),
         }
     }
 }

@@ -2,8 +2,12 @@
 
 use profiles::{Real, Sample};
 
+use super::actuator::{OutputLimits, Step};
 use super::config::SlidingMode;
 use super::logarithm::LogMagnitude;
+use super::model::AxisModel;
+use super::sampling::{Sampling, matched, set_valued_sign};
+use super::surface::Point;
 use crate::pid::Status;
 
 /// The memory of one sliding mode controller; every number in it is finite.
@@ -11,8 +15,9 @@ use crate::pid::Status;
 pub struct SlidingModeState<F = f64> {
     /// The integral as a contribution to the output.
     integral: F,
-    /// The last valid output.
+    /// Output and surface of the last valid tick.
     output: F,
+    surface: F,
 }
 
 impl<F: Real> SlidingModeState<F> {
@@ -37,6 +42,11 @@ impl<F: Real> SlidingModeState<F> {
     #[must_use]
     pub fn integral(&self) -> F {
         self.integral
+    }
+
+    #[cold]
+    fn held(&self, limits: &OutputLimits<F>) -> SlidingModeOutput<F> {
+        SlidingModeOutput { output: limits.limited(self.output), surface: self.surface, status: Status::Held }
     }
 }
 
@@ -82,6 +92,12 @@ impl<F: Real> SlidingModeInput<F> {
     pub fn with_error(self, error: F, error_rate: F) -> Self {
         Self { error, error_rate, ..self }
     }
+
+    /// The `k u` for which the error accelerates with `-demand`, m/s^2.
+    #[inline(always)]
+    pub(super) fn effort(&self, model: &AxisModel<F>, demand: F) -> F {
+        model.effort(self.reference_acceleration + demand, self.position, self.velocity) - self.load
+    }
 }
 
 /// What a sliding mode controller answers at a tick.
@@ -89,7 +105,7 @@ impl<F: Real> SlidingModeInput<F> {
 pub struct SlidingModeOutput<F = f64> {
     /// The output `u`: always finite and within the limits.
     pub output: F,
-    /// The surface `s` at the error given; zero where the output is held.
+    /// The surface `s` at the error given, or at the last valid one where the output is held.
     pub surface: F,
     /// How the output came about.
     pub status: Status,
@@ -124,32 +140,15 @@ impl<F: Real> SlidingMode<F> {
     ) -> SlidingModeOutput<F> {
         let (surface, known) = self.known(&input);
         let realised = input.realised.unwrap_or(state.output);
-        let shortfall = state.output - realised;
-
-        let wanted = self.integral_step * input.error;
-        let short_above = (wanted > F::ZERO) & (shortfall > F::ZERO);
-        let short_below = (wanted < F::ZERO) & (shortfall < F::ZERO);
-        let increment = if short_above | short_below { F::ZERO } else { wanted };
-        let before = known + state.integral;
-        let kept = increment.clamped((self.lower - before).min(F::ZERO), (self.upper - before).max(F::ZERO));
-        let integral = state.integral + kept;
-        let unlimited = before + increment;
-
-        // A term that is not finite makes a sum with it so; the integral is bounded by the sum and the limits.
-        let remembered = known + integral;
-        if !(unlimited.is_finite() & remembered.is_finite() & realised.is_finite()) {
-            return self.hold(state);
+        let increment = self.integral_step * input.error;
+        let step = self.limits.step(known, state.integral, increment, state.output - realised, true);
+        match step.filter(|_| surface.is_finite() & realised.is_finite()) {
+            Some(Step { output, integral, status }) => {
+                *state = SlidingModeState { integral, output, surface };
+                SlidingModeOutput { output, surface, status }
+            }
+            None => state.held(&self.limits),
         }
-        let output = self.limited(unlimited);
-        *state = SlidingModeState { integral, output };
-        let status = if unlimited < self.lower {
-            Status::AtLower
-        } else if unlimited > self.upper {
-            Status::AtUpper
-        } else {
-            Status::Regular
-        };
-        SlidingModeOutput { output, surface, status }
     }
 
     /// The surface, and the output without its integral.
@@ -157,10 +156,26 @@ impl<F: Real> SlidingMode<F> {
     fn known(&self, input: &SlidingModeInput<F>) -> (F, F) {
         let log_error = LogMagnitude::of(input.error);
         let point = self.prepared.at(input.error, input.error_rate, log_error);
-        let rate = self.law.rate_at(point.value, log_error);
-        let wanted = input.reference_acceleration + point.demand + rate;
-        let effort = self.model.effort(wanted, input.position, input.velocity);
-        (point.value, self.inverse_gain * (effort - input.load))
+        let rate = self.rate(&point, log_error);
+        let effort = input.effort(&self.model, point.demand + rate);
+        (point.value, self.inverse_gain * effort)
+    }
+
+    #[inline(always)]
+    fn rate(&self, point: &Point<F>, log_error: LogMagnitude<F>) -> F {
+        let surface = point.value;
+        let step = self.period() * point.leverage;
+        match self.sampling {
+            Sampling::Explicit => self.law.rate_at(surface, log_error),
+            Sampling::Implicit => {
+                // Only laws with these two gains are let in.
+                let (k, eps) = self.law.signed_linear().unwrap_or_default();
+                let sign = set_valued_sign(surface, step * eps);
+                let next = (surface - step * eps * sign) / (F::ONE + step * k);
+                k * next + eps * sign
+            }
+            Sampling::Matched => matched(surface, self.law.rate_at(surface, log_error), step),
+        }
     }
 
     /// Prepares `state`, so far driven by `old`, for this configuration, between two ticks: the integral takes up what the
@@ -172,17 +187,5 @@ impl<F: Real> SlidingMode<F> {
         if integral.is_finite() {
             state.integral = integral;
         }
-    }
-
-    /// A finite `output` brought into the limits.
-    #[inline]
-    fn limited(&self, output: F) -> F {
-        let raised = if output < self.lower { self.lower } else { output };
-        if raised > self.upper { self.upper } else { raised }
-    }
-
-    #[cold]
-    fn hold(&self, state: &SlidingModeState<F>) -> SlidingModeOutput<F> {
-        SlidingModeOutput { output: self.limited(state.output), surface: F::ZERO, status: Status::Held }
     }
 }
