@@ -41,9 +41,6 @@ use crate::range::positive;
 /// A. Levant, *Sliding order and sliding accuracy in sliding mode control*, International Journal of Control 58(6), 1993,
 /// doi:10.1080/00207179308923053.
 ///
-/// J. A. Moreno, M. Osorio, *Strict Lyapunov functions for the super-twisting algorithm*, IEEE Transactions on Automatic
-/// Control 57(4), 2012, doi:10.1109/TAC.2012.2186179.
-///
 /// R. Seeber, M. Horn, *Stability proof for a well-established super-twisting parameter setting*, Automatica 84, 2017,
 /// doi:10.1016/j.automatica.2017.07.002.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -162,22 +159,28 @@ impl<F: Real> SuperTwisting<F> {
         self.k2.min(self.k1 * self.k1 - self.k2).max(F::ZERO)
     }
 
-    /// An upper bound of the time in s from `s = surface` with `v = 0` to `s = 0` for good, without load.
+    /// The time in s from `s = surface` with `v = 0` to `s = 0` for good, for the law of continuous time without load.
     ///
-    /// With `z = (|s|^(1/2) sgn s, -v)` the function `V = z' P z`, `2 P = [4 k2 + k1^2, -k1; -k1, 2]`, falls as
-    /// `V' <= -g V^(1/2)` with `g = l(P)^(1/2) l(Q) / L(P)`, the least and the largest eigenvalues `l` and `L`, and
-    /// `Q = k1/2 [2 k2 + k1^2, -k1; -k1, 1]`: it is zero after `2 V^(1/2) / g` (Moreno and Osorio).
+    /// In `r = |s|^(1/2)` and with `dt = r dT` the law is linear between two passages of zero, `r' = -(k1 r + v)/2`,
+    /// `v' = k2 r`. It passes zero with `v1 = (2 k2 |s|)^(1/2) e^(-g A)`, and from then on each passage leaves `q = e^(-g pi / w)`
+    /// of `v`, with `g = k1/4`, `w^2 = k2/2 - g^2` and `A = atan2(w, g) / w`; without oscillation, where `w^2 <= 0`, `q` is zero.
+    /// As `v` changes at the rate `k2`, the time is the way of `v` over it, `2 v1 / ((1 - q) k2)`.
     #[must_use]
     pub fn reaching_time(&self, surface: F) -> Option<F> {
-        let two = F::from_u32(2);
-        let (k1, k2) = (self.k1, self.k2);
-        let square = k1 * k1;
-        let first = two * k2 + F::HALF * square;
-        let (least_p, largest_p) = eigenvalues(first, -F::HALF * k1, F::ONE);
-        let scale = F::HALF * k1;
-        let (least_q, _) = eigenvalues(scale * (two * k2 + square), -scale * k1, scale);
-        let decay = least_p.sqrt() * least_q / largest_p;
-        let time = two * (first * surface.abs()).sqrt() / decay;
+        let decay = F::from_f64(0.25) * self.k1;
+        let square = F::HALF * self.k2 - decay * decay;
+        let frequency = square.abs().sqrt();
+        let share = frequency / decay;
+        let (angle, kept) = if share < F::EPSILON {
+            (F::ONE, F::ZERO)
+        } else if square > F::ZERO {
+            let half_turn = F::from_f64(core::f64::consts::PI) / share;
+            (frequency.atan2(decay) / share, (-half_turn).exp())
+        } else {
+            (F::HALF * ((F::ONE + share) / (F::ONE - share)).ln() / share, F::ZERO)
+        };
+        let first = (F::from_u32(2) * self.k2 * surface.abs()).sqrt() * (-angle).exp();
+        let time = F::from_u32(2) * first / ((F::ONE - kept) * self.k2);
         time.is_finite().then_some(time)
     }
 
@@ -216,13 +219,4 @@ impl<F: Real> SuperTwisting<F> {
     pub fn output_limits(&self) -> (F, F) {
         (self.limits.lower, self.limits.upper)
     }
-}
-
-/// The smaller and the larger eigenvalue of a positive definite `[a, b; b, c]`.
-fn eigenvalues<F: Real>(a: F, b: F, c: F) -> (F, F) {
-    let difference = a - c;
-    let root = (difference * difference + F::from_u32(4) * b * b).sqrt();
-    let larger = F::HALF * (a + c + root);
-    // The product, which unlike the difference of sum and root loses no digits.
-    ((a * c - b * b) / larger, larger)
 }
