@@ -83,3 +83,95 @@ impl Signal<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn window(lower: f64, upper: f64) -> Option<Interval> {
+        Some(Interval { lower, upper })
+    }
+
+    #[test]
+    fn a_sine_and_a_switch() {
+        // 2 sin(w t) over 5 whole periods: 4 amplitudes and 2 turns in each.
+        let w = std::f64::consts::TAU;
+        let values: Vec<f64> = (0..=5000).map(|n| 2.0 * (w * f64::from(n) * 1e-3).sin()).collect();
+        let sine = Signal::sampled(&values, 1e-3).expect("valid");
+        // A turn between two samples loses amplitude (w h)^2 / 8 at most, twice.
+        let rate = sine.total_variation_rate(None).expect("finite");
+        assert!((rate - 8.0).abs() < 8.0 * 5e-6, "{rate}");
+        assert!((sine.reversal_rate(None).expect("finite") - 2.0).abs() < 1e-12);
+        // A switch of d at every other sample on top of a ramp of r: (d - r h) and (d + r h) in turn.
+        let (d, r, h) = (0.5, 20.0, 1e-3);
+        let values: Vec<f64> =
+            (0..=1000).map(|n| r * h * f64::from(n) + if n % 2 == 0 { 0.0 } else { d }).collect();
+        let switch = Signal::sampled(&values, h).expect("valid");
+        let rate = switch.total_variation_rate(None).expect("finite");
+        assert!((rate - d / h).abs() < 1e-9 * d / h, "{rate}");
+        // 999 turns between 1000 increments.
+        assert!((switch.reversal_rate(None).expect("finite") - 999.0).abs() < 1e-9);
+        // Slower than the ramp it turns nowhere, and only the ramp is left.
+        let values: Vec<f64> = values.iter().enumerate().map(|(n, y)| y + 600.0 * h * n as f64).collect();
+        let ramp = Signal::sampled(&values, h).expect("valid");
+        assert!((ramp.total_variation_rate(None).expect("finite") - (r + 600.0)).abs() < 1e-9 * 620.0);
+        assert!(ramp.reversal_rate(None).expect("finite").abs() <= 0.0);
+    }
+
+    #[test]
+    fn rests_are_no_turns() {
+        let rate = |values: &[f64]| {
+            let signal = Signal::sampled(values, 1.0).expect("valid");
+            (
+                signal.total_variation_rate(None),
+                signal.reversal_rate(None).map(|r| r * (values.len() - 1) as f64),
+            )
+        };
+        assert_eq!(rate(&[3.0, 3.0, 3.0]), (Ok(0.0), Ok(0.0)));
+        assert_eq!(rate(&[0.0, 1.0, 1.0, 2.0, 2.0]), (Ok(0.5), Ok(0.0)));
+        assert_eq!(rate(&[0.0, 1.0, 1.0, 0.0, 0.0]), (Ok(0.5), Ok(1.0)));
+    }
+
+    #[test]
+    fn windows_cut_between_samples() {
+        let signal = Signal::new(&[0.0, 1.0, 3.0, 4.0], &[0.0, 2.0, -2.0, -2.0]).expect("valid");
+        let variation = |lower, upper| signal.total_variation_rate(window(lower, upper));
+        // Half of the first line, a quarter of the second, over one second.
+        assert_eq!(variation(0.5, 1.5), Ok(2.0));
+        assert_eq!(signal.reversal_rate(window(0.5, 1.5)), Ok(1.0));
+        assert_eq!((variation(1.5, 2.5), signal.reversal_rate(window(1.5, 2.5))), (Ok(2.0), Ok(0.0)));
+        assert_eq!(variation(3.25, 3.75), Ok(0.0));
+        // Whole and parts: 2 + 4 over four seconds.
+        assert_eq!(variation(0.0, 4.0), signal.total_variation_rate(None));
+        assert_eq!(variation(0.0, 4.0), Ok(1.5));
+    }
+
+    #[test]
+    fn what_has_no_rate_is_an_error() {
+        let signal = Signal::sampled(&[0.0, 1.0, 0.0], 1.0).expect("valid");
+        for (lower, upper) in [(-0.1, 1.0), (1.0, 2.1), (2.0, 1.0), (f64::NAN, 1.0)] {
+            assert!(matches!(
+                signal.total_variation_rate(window(lower, upper)),
+                Err(SignalError::Window { .. })
+            ));
+            assert!(matches!(signal.reversal_rate(window(lower, upper)), Err(SignalError::Window { .. })));
+        }
+        let no_length = |result| {
+            assert_eq!(
+                result,
+                Err(SignalError::Number {
+                    quantity: "the length of the window in s",
+                    range: "positive",
+                    value: 0.0
+                })
+            );
+        };
+        no_length(signal.total_variation_rate(window(1.0, 1.0)));
+        let one = Signal::sampled(&[5.0], 1.0).expect("valid");
+        no_length(one.total_variation_rate(None));
+        no_length(one.reversal_rate(None));
+        let huge = Signal::sampled(&[1e308, -1e308, 1e308], 1.0).expect("valid");
+        assert!(matches!(huge.total_variation_rate(None), Err(SignalError::Number { .. })));
+        assert_eq!(huge.reversal_rate(None), Ok(0.5));
+    }
+}
