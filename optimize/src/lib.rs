@@ -3,12 +3,14 @@
 mod cost;
 mod error;
 mod fitness;
+mod genetic;
 mod simplex;
 mod swarm;
 
 pub use cost::Cost;
 pub use error::{FitnessError, SimplexError, SwarmError};
 pub use fitness::{Fitness, FitnessWeights};
+pub use genetic::{Breeding, Crossover, GeneticOptions, GeneticSwarm, Mates, Mutation};
 pub use simplex::{SimplexResult, simplex};
 pub use swarm::{
     Boundary, InitialVelocity, ParticleSwarm, Progress, Schedule, Stall, Stop, Stream, Swarm, SwarmOptions,
