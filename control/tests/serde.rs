@@ -2,8 +2,9 @@
 #![cfg(feature = "serde")]
 
 use control::{
-    AntiWindup, Cascade, CurrentLoop, DerivativeOn, Feedforward, FieldOriented, PiGains, Pid, PidGains,
-    Windings,
+    AntiWindup, AxisModel, Cascade, CurrentLoop, DerivativeOn, DisturbanceObserver, Feedforward,
+    FieldOriented, PiGains, Pid, PidGains, ReachingLaw, Sampling, SlidingMode, SlidingSurface, SuperTwisting,
+    Switching, Windings,
 };
 
 #[test]
@@ -81,5 +82,61 @@ fn a_servo_comes_back_as_it_was_and_is_checked() {
             let error = serde_json::from_str::<FieldOriented>(&text.replace(right, wrong)).expect_err(wrong);
             assert!(error.to_string().contains(reason), "{error}");
         }
+    }
+}
+
+#[test]
+fn sliding_mode_controllers_come_back_as_they_were_and_are_checked() {
+    let model = AxisModel::new(10.0, 1.0, 2.0).expect("valid");
+    let terminal = SlidingSurface::terminal(10.0, 1.0, 9, 5).expect("valid");
+    let surfaces = [
+        terminal,
+        terminal.with_guard(1e-6).expect("valid"),
+        SlidingSurface::linear(3.0).expect("valid"),
+        SlidingSurface::nonsingular_terminal(3.0, 5, 3).expect("valid"),
+        SlidingSurface::fast_nonsingular_terminal(1.0, 2.0, 3.0, 5, 3).expect("valid"),
+    ];
+    let laws = [
+        ReachingLaw::improved_double_power(20.0, 20.0, 200.0, 0.25, 0.5),
+        ReachingLaw::constant(3.0).and_then(|l| l.with_switching(Switching::Saturation { width: 0.1 })),
+        ReachingLaw::exponential(3.0, 0.0).and_then(|l| l.with_switching(Switching::Smooth { width: 0.1 })),
+        ReachingLaw::power(3.0, 0.5),
+        ReachingLaw::double_power(3.0, 1.5, 4.0, 0.5),
+    ];
+    for (surface, law) in surfaces.into_iter().zip(laws) {
+        let plain = SlidingMode::new(surface, law.expect("valid"), model, 1e-3).expect("valid");
+        let full = plain
+            .with_sampling(Sampling::Matched)
+            .and_then(|c| c.with_integral_compensation(20.0))
+            .and_then(|c| c.with_output_limits(f64::NEG_INFINITY, 2.0))
+            .expect("valid");
+        for controller in [plain, full] {
+            let text = serde_json::to_string(&controller).expect("writes");
+            assert_eq!(serde_json::from_str::<SlidingMode>(&text).expect(&text), controller);
+        }
+    }
+    let twisting = SuperTwisting::new(terminal, 15.0, 110.0, model, 1e-3)
+        .and_then(|c| c.with_sampling(Sampling::Implicit).with_output_limits(-3.0, f64::INFINITY))
+        .expect("valid");
+    let text = serde_json::to_string(&twisting).expect("writes");
+    assert_eq!(serde_json::from_str::<SuperTwisting>(&text).expect(&text), twisting);
+    let observer = DisturbanceObserver::new(model, 300.0, 1e-3).expect("valid");
+    let text = serde_json::to_string(&observer).expect("writes");
+    assert_eq!(serde_json::from_str::<DisturbanceObserver>(&text).expect(&text), observer);
+
+    let text = r#"{"surface": {"terminal": {"alpha": 10, "beta": 1, "p": 9, "q": 5}},
+        "reaching": {"law": {"exponential": {"k": 200, "eps": 33}}},
+        "model": {"damping": 10, "stiffness": 1, "gain": 1}, "period": 0.001}"#;
+    assert_eq!(serde_json::from_str::<SlidingMode>(text).expect(text).output_limits().0, f64::NEG_INFINITY);
+    for (right, wrong, reason) in [
+        (r#""q": 5"#, r#""q": 4"#, "odd exponents"),
+        (r#""eps": 33"#, r#""eps": -1"#, "eps"),
+        (r#""gain": 1"#, r#""gain": 0"#, "gain of the axis"),
+        ("0.001", "0", "period"),
+        (r#""period""#, r#""lower": 3, "upper": 2, "period""#, "limit"),
+        (r#""alpha""#, r#""alfa""#, "alfa"),
+    ] {
+        let error = serde_json::from_str::<SlidingMode>(&text.replace(right, wrong)).expect_err(wrong);
+        assert!(error.to_string().contains(reason), "{error}");
     }
 }

@@ -268,3 +268,45 @@ fn power_time<F: Real>(distance: F, k: F, a: F) -> F {
     let rest = F::ONE - a;
     distance.powf(rest) / (k * rest)
 }
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "numbers that are exact in binary")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_parameters_are_named() {
+        let parameter = |which, range, value| Err(SlidingModeError::Parameter { which, range, value });
+        assert_eq!(ReachingLaw::constant(0.0), parameter("eps of the reaching law", "positive", 0.0));
+        assert_eq!(
+            ReachingLaw::exponential(1.0, -1.0),
+            parameter("eps of the reaching law", "not negative", -1.0)
+        );
+        let range = "between zero and one";
+        assert_eq!(ReachingLaw::power(1.0, 1.0), parameter("exponent a of the reaching law", range, 1.0));
+        let law = ReachingLaw::double_power(1.0, 1.0, 1.0, 0.5);
+        assert_eq!(law, parameter("exponent b1 of the reaching law", "above one", 1.0));
+        let law = ReachingLaw::improved_double_power(1.0, 1.0, 1.0, 1.5, 1.0);
+        assert_eq!(law, parameter("exponent b2 of the reaching law", range, 1.5));
+        assert!(ReachingLaw::improved_double_power(1.0, 1.0, f64::NAN, 0.5, 1.0).is_err());
+        for width in [0.0, -1.0, f64::NAN, 1e-310] {
+            let layer = Switching::Saturation { width };
+            assert!(ReachingLaw::constant(1.0).and_then(|law| law.with_switching(layer)).is_err());
+        }
+    }
+
+    #[test]
+    fn a_boundary_layer_is_linear_within_and_the_law_outside() {
+        let sign = ReachingLaw::constant(8.0).expect("valid");
+        let layer = sign.with_switching(Switching::Saturation { width: 0.5 }).expect("valid");
+        let smooth = sign.with_switching(Switching::Smooth { width: 0.5 }).expect("valid");
+        for (s, [exact, linear, soft]) in [
+            (0.0, [0.0, 0.0, 0.0]),
+            (-0.125, [-8.0, -2.0, -1.6]),
+            (0.5, [8.0, 8.0, 4.0]),
+            (-1.5, [-8.0, -8.0, -6.0]),
+        ] {
+            assert_eq!([sign, layer, smooth].map(|law| law.rate(s, 0.0)), [exact, linear, soft]);
+        }
+    }
+}

@@ -294,3 +294,89 @@ fn log1p_over<F: Real>(x: F) -> F {
     let rounded = sum - F::ONE;
     if rounded > F::ZERO { sum.ln() / rounded } else { F::ONE }
 }
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "numbers that are exact in binary")]
+mod tests {
+    use super::*;
+
+    fn at(prepared: &Prepared<f64>, error: f64, rate: f64) -> Point<f64> {
+        prepared.at(error, rate, LogMagnitude::of(error))
+    }
+
+    #[test]
+    fn within_its_guard_a_terminal_surface_is_a_straight_line() {
+        // |e|^(1/3) within 1/64 is 16 e.
+        let surface =
+            SlidingSurface::terminal(2.0, 3.0, 3, 1).and_then(|s| s.with_guard(1.0 / 64.0)).expect("valid");
+        let prepared = surface.prepared(1.0).expect("valid");
+        for error in [0.0, 5e-324, 1e-9, -0.0078125] {
+            let point = at(&prepared, error, 0.5);
+            assert!((point.value - (0.5 + 50.0 * error)).abs() < 1e-15, "{error}");
+            assert!((point.demand - 25.0).abs() < 1e-13, "{error}");
+        }
+        // Outside it is the power, with a third of the chord's slope.
+        let outside = at(&prepared, 0.125, 0.5);
+        assert!((outside.value - (0.5 + 0.25 + 1.5)).abs() < 1e-15);
+        assert!((outside.demand - (2.0 + 3.0 * 4.0 / 3.0) * 0.5).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_surface_is_continuous_and_rises_through_its_guard() {
+        let surface = SlidingSurface::terminal(10.0, 1.0, 9, 5).expect("valid");
+        let prepared = surface.prepared(1e-3).expect("valid");
+        let Prepared::Terminal { guard, .. } = prepared else { panic!("{prepared:?}") };
+        // beta guard^(q/p - 1) is one over the period.
+        assert!((guard.powf(-4.0 / 9.0) / 1e3 - 1.0).abs() < 1e-13);
+        let below = at(&prepared, guard * (1.0 - 1e-12), 0.0).value;
+        let above = at(&prepared, guard * (1.0 + 1e-12), 0.0).value;
+        // The slope is about a thousand on either side.
+        assert!(above > below && above - below < 2.1e-12 * 1010.0 * guard);
+        let mut last = f64::NEG_INFINITY;
+        for step in -400..=400 {
+            let value = at(&prepared, f64::from(step) * guard / 100.0, 0.0).value;
+            assert!(value > last, "{step}");
+            last = value;
+        }
+    }
+
+    #[test]
+    fn bad_exponents_are_named() {
+        for (p, q) in [(9, 4), (8, 5), (5, 9), (5, 5), (5, 0)] {
+            assert_eq!(
+                SlidingSurface::terminal(1.0, 1.0, p, q),
+                Err(SlidingModeError::TerminalExponents { p, q })
+            );
+        }
+        for (p, q) in [(9, 3), (6, 5), (5, 7), (5, 5)] {
+            assert_eq!(
+                SlidingSurface::nonsingular_terminal(1.0, p, q),
+                Err(SlidingModeError::NonsingularExponents { p, q })
+            );
+        }
+        assert!(SlidingSurface::nonsingular_terminal(1.0, u32::MAX, u32::MAX - 2).is_ok());
+        assert!(SlidingSurface::fast_nonsingular_terminal(1.0, 1.5, 1.0, 5, 3).is_err(), "g below p/q");
+        assert!(SlidingSurface::linear(0.0).is_err());
+        assert!(SlidingSurface::terminal(-1.0, 1.0, 9, 5).is_err());
+        assert!(SlidingSurface::terminal(1.0, 1.0, 9, 5).and_then(|s| s.with_guard(0.0)).is_err());
+    }
+
+    #[test]
+    fn a_slope_or_a_guard_out_of_range_is_refused() {
+        let steep =
+            SlidingSurface::terminal(0.0, 1e300, 3, 1).and_then(|s| s.with_guard(1e-300)).expect("valid");
+        assert!(matches!(steep.prepared(1.0), Err(SlidingModeError::Range { .. })));
+        let wide = SlidingSurface::terminal(0.0, 1e300, 101, 99).expect("valid");
+        assert!(matches!(
+            wide.prepared(1.0),
+            Err(SlidingModeError::Range { quantity: "guard of the surface", .. })
+        ));
+    }
+
+    #[test]
+    fn a_guard_is_for_terminal_surfaces() {
+        let linear = SlidingSurface::linear(1.0).expect("valid");
+        assert_eq!(linear.with_guard(0.1), Ok(linear));
+        assert_eq!(at(&linear.prepared(1.0).expect("valid"), 2.0, 0.5).value, 2.5);
+    }
+}
