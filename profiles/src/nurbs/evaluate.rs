@@ -184,7 +184,7 @@ impl<const D: usize> NurbsCurve<D> {
 
     /// The control points that act at `u` and the knots that matter there.
     #[inline]
-    fn acting(&self, u: f64, side: Side) -> (&[Homogeneous<D>], &[f64]) {
+    pub(super) fn acting(&self, u: f64, side: Side) -> (&[Homogeneous<D>], &[f64]) {
         let first = self.knots().first_acting(u, side);
         let points = self.homogeneous_points().get(first..=first + self.degree()).unwrap_or_default();
         (points, self.knots().local(first))
