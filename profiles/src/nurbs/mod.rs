@@ -5,6 +5,7 @@ mod bezier;
 mod curve;
 mod error;
 mod evaluate;
+mod feed;
 mod homogeneous;
 mod insert;
 mod knots;
@@ -15,6 +16,9 @@ pub use basis::Basis;
 pub use bezier::BezierSegment;
 pub use curve::NurbsCurve;
 pub use error::NurbsError;
+pub use feed::{
+    FeedError, FeedInterpolator, FeedLaw, FeedLimits, FeedProfile, FeedSample, PolynomialLaw, Ticks,
+};
 pub use homogeneous::Homogeneous;
 pub use knots::{Knots, Side};
 
