@@ -17,7 +17,8 @@ pub use bezier::BezierSegment;
 pub use curve::NurbsCurve;
 pub use error::NurbsError;
 pub use feed::{
-    FeedError, FeedInterpolator, FeedLaw, FeedLimits, FeedProfile, FeedSample, PolynomialLaw, Ticks,
+    AxisMotion, CoordinateList, FeedError, FeedInterpolator, FeedLaw, FeedLimits, FeedProfile, FeedReport,
+    FeedSample, Peak, PolynomialLaw, Ticks,
 };
 pub use homogeneous::Homogeneous;
 pub use knots::{Knots, Side};

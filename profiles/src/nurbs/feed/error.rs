@@ -17,9 +17,6 @@ pub enum FeedError {
     /// A period that is not positive and finite, s.
     #[error("a period must be positive and finite, got {0} s")]
     Period(f64),
-    /// An angle outside `[0, pi]`, rad.
-    #[error("the angle from which on a bend is a corner must lie in [0, pi], got {0} rad")]
-    CornerAngle(f64),
     /// A curve without length.
     #[error("the curve is {0} m long, which is no way to go")]
     Length(f64),

@@ -3,9 +3,6 @@
 use super::FeedError;
 use crate::quantities::{Limits, Real};
 
-/// Angle from which on a bend is a corner, rad: below it the axis velocities jump by a millionth of the feed.
-const CORNER_ANGLE: f64 = 1e-6;
-
 /// What the motion along a curve in `D` dimensions must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedLimits<const D: usize> {
@@ -13,7 +10,6 @@ pub struct FeedLimits<const D: usize> {
     axes: [Limits; D],
     chord_error: f64,
     period: f64,
-    corner_angle: f64,
 }
 
 impl<const D: usize> FeedLimits<D> {
@@ -30,7 +26,7 @@ impl<const D: usize> FeedLimits<D> {
         if !(period > 0.0 && period.is_finite()) {
             return Err(FeedError::Period(period));
         }
-        Ok(Self { feed, axes, chord_error: f64::INFINITY, period, corner_angle: CORNER_ANGLE })
+        Ok(Self { feed, axes, chord_error: f64::INFINITY, period })
     }
 
     /// Bounds how far the curve may be from the straight line between the points of two ticks, m.
@@ -42,19 +38,6 @@ impl<const D: usize> FeedLimits<D> {
             Ok(Self { chord_error, ..self })
         } else {
             Err(FeedError::ChordError(chord_error))
-        }
-    }
-
-    /// The angle in rad from which on a bend in no length is a corner, at which the feed comes to rest; 1e-6 unless set.
-    /// At a smaller one the axis velocities jump by at most the feed times the angle.
-    ///
-    /// # Errors
-    /// An angle outside `[0, pi]`.
-    pub fn with_corner_angle(self, angle: f64) -> Result<Self, FeedError> {
-        if (0.0..=core::f64::consts::PI).contains(&angle) {
-            Ok(Self { corner_angle: angle, ..self })
-        } else {
-            Err(FeedError::CornerAngle(angle))
         }
     }
 
@@ -80,12 +63,6 @@ impl<const D: usize> FeedLimits<D> {
     #[must_use]
     pub fn period(&self) -> f64 {
         self.period
-    }
-
-    /// The angle from which on a bend is a corner, rad.
-    #[must_use]
-    pub fn corner_angle(&self) -> f64 {
-        self.corner_angle
     }
 
     /// The longest step along a piece of this curvature in 1/m that keeps the chord error, m.

@@ -4,6 +4,7 @@ mod arc;
 mod caps;
 mod cell;
 mod check;
+mod coordinates;
 mod enclosure;
 mod error;
 mod jet;
@@ -14,12 +15,15 @@ mod plan;
 mod polish;
 mod profile;
 mod ramp;
+mod report;
 mod sample;
 
+pub use coordinates::{AxisMotion, CoordinateList};
 pub use error::FeedError;
 pub use law::{FeedLaw, PolynomialLaw};
 pub use limits::FeedLimits;
 pub use profile::FeedProfile;
+pub use report::{FeedReport, Peak};
 pub use sample::{FeedSample, Ticks};
 
 use crate::cursor::{Cursor, check_clock, instant_rounding};
@@ -127,6 +131,27 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
     pub fn ticks(&self) -> Result<Ticks<'_, D, L>, FeedError> {
         let cursor = Cursor::new(self.feed.sections(), self.limits.period())?;
         Ok(Ticks::new(self, cursor, self.last_tick()))
+    }
+
+    /// The points at every tick, for the drives.
+    ///
+    /// # Errors
+    /// As for [`ticks`](Self::ticks).
+    pub fn coordinates(&self) -> Result<CoordinateList<D>, FeedError> {
+        let ticks = self.ticks()?.map(|sample| (sample.position, sample.velocity));
+        Ok(CoordinateList::new(self.limits.period(), ticks))
+    }
+
+    /// Length of the curve between two parameters, m.
+    fn arc_length(&self, from: f64, to: f64) -> f64 {
+        let at = |u: f64| {
+            let cells = &self.path.cells;
+            let index = cells.partition_point(|cell| cell.to < u);
+            cells
+                .get(index)
+                .map_or(self.path.length, |cell| cell.start + arc::arc_length(&self.curve, cell.from, u))
+        };
+        at(to) - at(from)
     }
 
     /// The motion at a place of the cell with this index.

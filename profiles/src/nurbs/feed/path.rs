@@ -17,6 +17,9 @@ const LEAST_CELLS: f64 = 96.0;
 /// How much of a limit a derivative may take before it has to be known well.
 const UNFELT: f64 = 0.05;
 
+/// Angle from which on a bend at a knot is a corner, rad: less is rounding of the curve.
+const CORNER_ANGLE: f64 = 1e-9;
+
 /// Length of a piece that is a point, as a part of the curve.
 const POINT: f64 = 1e-13;
 
@@ -58,7 +61,7 @@ impl<const D: usize> Path<D> {
             return Err(FeedError::Length(polygon));
         }
         let resolution = resolution(polygon, limits);
-        let mut builder = Builder { curve, limits, path: Self::empty(), singular: false };
+        let mut builder = Builder { curve, path: Self::empty(), singular: false };
         for piece in pieces {
             let mut waiting = alloc::vec![piece];
             let mut joint = true;
@@ -92,11 +95,17 @@ impl<const D: usize> Path<D> {
     pub(super) fn cell_at(&self, s: f64) -> usize {
         self.cells.partition_point(|cell| cell.end <= s).min(self.cells.len().saturating_sub(1))
     }
+
+    /// A bound of the curvature between two places, 1/m.
+    pub(super) fn curvature(&self, from: f64, to: f64) -> f64 {
+        let cells = self.cells.get(self.cell_at(from)..).unwrap_or_default();
+        let touched = cells.iter().take_while(|cell| cell.start < to);
+        touched.map(|cell| cell.bounds.curvature).fold(0.0, f64::max)
+    }
 }
 
 struct Builder<'a, const D: usize> {
     curve: &'a NurbsCurve<D>,
-    limits: &'a FeedLimits<D>,
     path: Path<D>,
     /// Whether the next node is one at which the curve has no direction.
     singular: bool,
@@ -139,7 +148,7 @@ impl<const D: usize> Builder<'_, D> {
         for ((jump, a), b) in jump.iter_mut().zip(k0).zip(k1) {
             *jump = (b - a).abs();
         }
-        Node { stop: angle > self.limits.corner_angle(), jump }
+        Node { stop: angle > CORNER_ANGLE, jump }
     }
 
     fn finish(mut self) -> Result<Path<D>, FeedError> {
