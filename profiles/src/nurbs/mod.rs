@@ -10,6 +10,7 @@ mod conics;
 mod curve;
 mod error;
 mod evaluate;
+mod feed;
 mod gauss;
 mod geometry;
 mod homogeneous;
@@ -27,6 +28,10 @@ pub use bezier::BezierSegment;
 pub use closest::Nearest;
 pub use curve::NurbsCurve;
 pub use error::NurbsError;
+pub use feed::{
+    AxisMotion, CoordinateList, FeedError, FeedInterpolator, FeedLaw, FeedLimits, FeedProfile, FeedReport,
+    FeedSample, Peak, PolynomialLaw, Ticks,
+};
 pub use geometry::Corner;
 pub use homogeneous::Homogeneous;
 pub use knots::{Knots, Side};
