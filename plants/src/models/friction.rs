@@ -188,3 +188,23 @@ impl Default for Friction {
         Self::none()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_fall_is_steeper() {
+        for exponent in [1.0, 1.3, 2.0, 7.5] {
+            let friction =
+                Friction::coulomb(2.0).and_then(|f| f.with_stribeck(3.5, 0.2, exponent)).expect("valid");
+            let step = 1e-6;
+            // Downwards from where the speed ends: at standstill the torque has a corner.
+            let fall = |speed: f64| (friction.dry(speed) - friction.dry(speed + step)) / step;
+            let steepest = (0..4000).map(|n| fall(f64::from(n) * 1e-4)).fold(0.0, f64::max);
+            // A difference over a step, on a grid: second order in the grid, first at a corner.
+            assert!((friction.steepest_fall() / steepest - 1.0).abs() < 1e-5, "{steepest} {exponent}");
+        }
+        assert!(Friction::coulomb(2.0).map(|f| f.steepest_fall()).expect("valid").abs() <= 0.0);
+    }
+}

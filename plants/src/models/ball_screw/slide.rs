@@ -42,6 +42,8 @@ pub(super) struct Piece {
 pub(super) struct Slide {
     axis: BallScrewAxis,
     friction: Friction,
+    /// Substeps per second.
+    rate: f64,
     kept: Kept<Substeps>,
 }
 
@@ -56,7 +58,9 @@ struct Substeps {
 
 impl Slide {
     pub(super) fn new(axis: BallScrewAxis, friction: Friction) -> Self {
-        Self { axis, friction, kept: Kept::new() }
+        let fall = friction.steepest_fall() * axis.per_inertia;
+        let rate = (axis.a.max(axis.b.sqrt()) / POLES).max(fall / FALL);
+        Self { axis, friction, rate, kept: Kept::new() }
     }
 
     pub(super) fn axis(&self) -> &BallScrewAxis {
@@ -81,14 +85,17 @@ impl Slide {
         mut account: impl FnMut(&Self, &Piece),
     ) -> Result<SVector<f64, 2>, StepError> {
         check_interval(interval)?;
-        let (axis, friction) = (self.axis, self.friction);
-        let needed = substeps(&axis, &friction, interval)?;
+        let needed = (interval * self.rate).ceil().max(1.0);
+        if needed > f64::from(MOST_SUBSTEPS) {
+            return Err(StepError::Substeps { interval, needed, limit: MOST_SUBSTEPS });
+        }
+        let BallScrewAxis { a, b, .. } = self.axis;
         let substeps = *self.kept.get(interval, || {
-            let length = interval / f64::from(needed);
-            let motion = |time| Motion::over(axis.a, axis.b, time);
-            Ok(Substeps { count: needed, length, whole: motion(length), half: motion(0.5 * length) })
+            let length = interval / needed;
+            let motion = |time| Motion::over(a, b, time);
+            Ok(Substeps { count: needed as u32, length, whole: motion(length), half: motion(0.5 * length) })
         })?;
-        let driving = axis.driving_acceleration(input);
+        let driving = self.axis.driving_acceleration(input);
         let mut state = *state;
         for _ in 0..substeps.count {
             state = self.substep(state, driving, &substeps, &mut account);
@@ -160,16 +167,5 @@ impl Slide {
             time = better;
         }
         time
-    }
-}
-
-/// Into how many substeps an interval is divided.
-fn substeps(axis: &BallScrewAxis, friction: &Friction, interval: f64) -> Result<u32, StepError> {
-    let fall = friction.steepest_fall() * axis.per_inertia;
-    let needed = (interval * (axis.a.max(axis.b.sqrt()) / POLES).max(fall / FALL)).ceil().max(1.0);
-    if needed <= f64::from(MOST_SUBSTEPS) {
-        Ok(needed as u32)
-    } else {
-        Err(StepError::Substeps { interval, needed, limit: MOST_SUBSTEPS })
     }
 }
