@@ -187,7 +187,7 @@ pub(super) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 }
 
 /// The angle between two directions of length one, exact also near zero and near pi.
-fn angle_between<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+pub(super) fn angle_between<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     let mut sum = *a;
     sum.iter_mut().zip(b).for_each(|(x, y)| *x += y);
     2.0 * Real::atan2(distance(a, b), norm(&sum))

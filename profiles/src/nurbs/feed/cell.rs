@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use super::enclosure::{Enclosure, Scalar};
 use super::jet::{Coordinates, ORDERS, along_arc, quotient};
+use crate::nurbs::geometry::{distance, norm};
 use crate::nurbs::{BezierSegment, Homogeneous};
-use crate::quantities::Real;
 
 /// The derivatives of the path along its arc over a piece of it, enclosed axis by axis.
 #[derive(Debug, Clone, Copy)]
@@ -199,12 +199,4 @@ fn middle_of<const D: usize>(mut points: Vec<Homogeneous<D>>) -> Homogeneous<D> 
         blend_once(&mut points);
     }
     points.first().copied().unwrap_or(Homogeneous::ZERO)
-}
-
-pub(super) fn norm<const D: usize>(vector: &[f64; D]) -> f64 {
-    Real::sqrt(vector.iter().map(|x| x * x).sum::<f64>())
-}
-
-pub(super) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    Real::sqrt(a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>())
 }

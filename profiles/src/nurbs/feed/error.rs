@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::error::{ClockError, PlanError};
+use crate::nurbs::NurbsError;
 
 /// A feed that cannot be, or a curve that has none.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -44,6 +45,9 @@ pub enum FeedError {
         /// Where it ends, m.
         to: f64,
     },
+    /// A curve whose length cannot be found.
+    #[error(transparent)]
+    Curve(#[from] NurbsError),
     /// A ramp that cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -1,6 +1,5 @@
 //! A feed along a curve: look-ahead over all of it, and the motion of every axis at every tick.
 
-mod arc;
 mod caps;
 mod cell;
 mod check;
@@ -28,17 +27,20 @@ pub use sample::{FeedSample, Ticks};
 
 use crate::cursor::{Cursor, check_clock, instant_rounding};
 use crate::laws::SCurve;
-use crate::nurbs::NurbsCurve;
+use crate::nurbs::{ArcLength, NurbsCurve, Side};
 use crate::profile::Profile;
 use crate::quantities::{Real, Sample};
 use check::Check;
 use path::Path;
 use profile::Sections;
 
+/// How well the length of a curve is known, in roundings of it.
+const ROUNDINGS: f64 = 16.0;
+
 /// A feed along a curve in `D` dimensions, planned and complete; changes of feed follow the law `L`.
 #[derive(Debug, Clone)]
 pub struct FeedInterpolator<const D: usize, L = SCurve> {
-    curve: NurbsCurve<D>,
+    arc: ArcLength<D>,
     limits: FeedLimits<D>,
     path: Path<D>,
     feed: FeedProfile<L>,
@@ -68,14 +70,19 @@ impl<const D: usize, L: FeedLaw> FeedInterpolator<D, L> {
                 return Err(FeedError::Jumps { axis, limit });
             }
         }
-        let path = Path::new(&curve, &limits)?;
+        let size = curve.polygon_length();
+        if !(size > 0.0 && size.is_finite()) {
+            return Err(FeedError::Length(size));
+        }
+        let arc = ArcLength::new(curve, ROUNDINGS * f64::EPSILON * size)?;
+        let path = Path::new(&arc, &limits)?;
         let mut motion = Sections::new();
         for block in caps::blocks(&path, &limits) {
             let plan = Check { block: &block, limits: &limits }.plan::<L>()?;
             motion.append(&plan, block.end(), limits.period());
         }
         check_clock(motion.duration(), limits.period())?;
-        Ok(Self { curve, limits, path, feed: FeedProfile::new(motion) })
+        Ok(Self { arc, limits, path, feed: FeedProfile::new(motion) })
     }
 }
 
@@ -83,7 +90,7 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
     /// The curve.
     #[must_use]
     pub fn curve(&self) -> &NurbsCurve<D> {
-        &self.curve
+        self.arc.curve()
     }
 
     /// What the feed keeps.
@@ -95,7 +102,7 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
     /// Length of the curve, m.
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.path.length
+        self.arc.length()
     }
 
     /// The way along the curve over time.
@@ -121,7 +128,7 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
     #[must_use]
     pub fn sample(&self, t: f64) -> FeedSample<D> {
         let along = self.feed.sections().sample(t);
-        self.at(t, along, self.path.cell_at(along.position))
+        self.at(t, along)
     }
 
     /// The motion at every tick, from the first to the last one.
@@ -142,24 +149,12 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
         Ok(CoordinateList::new(self.limits.period(), ticks))
     }
 
-    /// Length of the curve between two parameters, m.
-    fn arc_length(&self, from: f64, to: f64) -> f64 {
-        let at = |u: f64| {
-            let cells = &self.path.cells;
-            let index = cells.partition_point(|cell| cell.to < u);
-            cells
-                .get(index)
-                .map_or(self.path.length, |cell| cell.start + arc::arc_length(&self.curve, cell.from, u))
-        };
-        at(to) - at(from)
-    }
-
-    /// The motion at a place of the cell with this index.
-    fn at(&self, time: f64, along: Sample, cell: usize) -> FeedSample<D> {
-        let parameter = match self.path.cells.get(cell) {
-            Some(cell) => arc::parameter_at(&self.curve, cell, along.position),
-            None => self.curve.domain().lower,
-        };
-        FeedSample::new(time, along, parameter, self.curve.derivatives(parameter))
+    /// The motion at a place along the curve.
+    fn at(&self, time: f64, along: Sample) -> FeedSample<D> {
+        let parameter = self.arc.parameter_at(along.position);
+        let curve = self.curve();
+        let mut sample = FeedSample::new(time, along, parameter, curve.by_length(parameter, Side::After));
+        sample.position = curve.point(parameter);
+        sample
     }
 }

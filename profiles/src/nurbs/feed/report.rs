@@ -85,7 +85,7 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
                 report.chord_error.take(chord_error, time, way);
                 used = used.max(chord_error / self.limits.chord_error());
                 if step > SHORT * longest {
-                    let walked = self.arc_length(last.parameter, sample.parameter);
+                    let walked = self.arc.length_at(sample.parameter) - self.arc.length_at(last.parameter);
                     report.fluctuation.take((walked - step).abs() / step, time, way);
                 }
                 if used >= REACHED {

@@ -1,7 +1,6 @@
 //! The motion of all axes at one instant, and tick by tick.
 
 use super::FeedInterpolator;
-use super::cell::norm;
 use super::profile::Sections;
 use crate::cursor::Cursor;
 use crate::quantities::Sample;
@@ -26,44 +25,23 @@ pub struct FeedSample<const D: usize> {
 }
 
 impl<const D: usize> FeedSample<D> {
-    /// The sample at a place of the curve, given the derivatives of the curve by its parameter there:
+    /// The sample at a place of the curve, with the curve and its derivatives by arc length there, if it has any:
     ///
     /// `x' = t v`, `x'' = t a + k v^2`, `x''' = t j + 3 k v a + b v^3`
-    pub(super) fn new(time: f64, along: Sample, parameter: f64, derivatives: [[f64; D]; 4]) -> Self {
-        let Sample { velocity: v, acceleration: a, jerk: j, .. } = along;
-        let [position, first, second, third] = derivatives;
-        let mut sample = Self {
-            time,
-            along,
-            parameter,
-            position,
-            velocity: [0.0; D],
-            acceleration: [0.0; D],
-            jerk: [0.0; D],
-        };
-        let speed = norm(&first);
+    pub(super) fn new(time: f64, along: Sample, parameter: f64, curve: Option<[[f64; D]; 4]>) -> Self {
+        let zero = [0.0; D];
+        let still =
+            Self { time, along, parameter, position: zero, velocity: zero, acceleration: zero, jerk: zero };
         // Where the curve has no direction the feed is at rest.
-        let slowness = 1.0 / speed;
-        if !slowness.is_finite() {
-            return sample;
-        }
-        let dot = |x: &[f64; D], y: &[f64; D]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-        let tangent = first.map(|x| x * slowness);
-        let (along_second, along_third) = (dot(&second, &tangent), dot(&third, &tangent));
-        let mut normal = second;
-        normal.iter_mut().zip(&tangent).for_each(|(n, t)| *n -= along_second * t);
-        let across = dot(&normal, &normal);
-        let square = slowness * slowness;
+        let Some([position, tangent, bend, twist]) = curve else { return still };
+        let Sample { velocity: v, acceleration: a, jerk: j, .. } = along;
+        let mut sample = Self { position, ..still };
         let rows = sample.velocity.iter_mut().zip(&mut sample.acceleration).zip(&mut sample.jerk);
-        let curve = tangent.iter().zip(&normal).zip(&third);
-        for (((velocity, acceleration), jerk), ((t, normal), third)) in rows.zip(curve) {
-            // With u' = 1/|r'|: what of r'' is across the tangent times u'^2, and the derivative of that times u'.
-            let bend = normal * square;
-            let twist = (third - along_third * t - slowness * (3.0 * along_second * normal + across * t))
-                * (square * slowness);
+        for (((velocity, acceleration), jerk), ((t, k), b)) in rows.zip(tangent.iter().zip(&bend).zip(&twist))
+        {
             *velocity = t * v;
-            *acceleration = t * a + bend * (v * v);
-            *jerk = t * j + 3.0 * bend * (v * a) + twist * (v * v * v);
+            *acceleration = t * a + k * (v * v);
+            *jerk = t * j + 3.0 * k * (v * a) + b * (v * v * v);
         }
         sample
     }
@@ -74,7 +52,6 @@ impl<const D: usize> FeedSample<D> {
 pub struct Ticks<'a, const D: usize, L> {
     interpolator: &'a FeedInterpolator<D, L>,
     cursor: Cursor<&'a Sections, f64>,
-    cell: usize,
     last: u64,
 }
 
@@ -84,7 +61,7 @@ impl<'a, const D: usize, L> Ticks<'a, D, L> {
         cursor: Cursor<&'a Sections, f64>,
         last: u64,
     ) -> Self {
-        Self { interpolator, cursor, cell: 0, last }
+        Self { interpolator, cursor, last }
     }
 }
 
@@ -98,13 +75,7 @@ impl<const D: usize, L> Iterator for Ticks<'_, D, L> {
         }
         let along = self.cursor.tick();
         let time = tick as f64 * self.interpolator.limits.period();
-        let cells = &self.interpolator.path.cells;
-        while cells.get(self.cell).is_some_and(|cell| cell.end <= along.position)
-            && self.cell + 1 < cells.len()
-        {
-            self.cell += 1;
-        }
-        Some(self.interpolator.at(time, along, self.cell))
+        Some(self.interpolator.at(time, along))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
