@@ -2,11 +2,10 @@
 
 use profiles::Real;
 
-/// `ln |x|`, with zero and subnormal numbers taken for the smallest normal one.
+/// `log2 |x|`, with zero and subnormal numbers taken for the smallest normal one.
 ///
 /// `x |x|^(a - 1)` is then `|x|^a` with the sign of `x` for every `a`, zero at zero and free of a division of zero by
-/// zero. Its relative error is that of `(a - 1) ln |x|` times the magnitude of the same, some
-/// `1 + |(a - 1) ln |x||` machine epsilons.
+/// zero. Its relative error is some `1 + |(a - 1) ln |x||` machine epsilons, the rounding of the exponent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LogMagnitude<F>(F);
 
@@ -16,13 +15,14 @@ impl<F: Real> LogMagnitude<F> {
         // Four over the largest number is the smallest normal one.
         let smallest = F::from_u32(4) / F::MAX;
         let magnitude = x.abs();
-        Self(if magnitude > smallest { magnitude } else { smallest }.ln())
+        let magnitude = if magnitude > smallest { magnitude } else { smallest };
+        Self(magnitude.ln() * F::from_f64(core::f64::consts::LOG2_E))
     }
 
     /// `|x|^a`.
     #[inline(always)]
     pub(super) fn to_power(self, a: F) -> F {
-        (a * self.0).exp()
+        (a * self.0).exp2()
     }
 
     /// The larger magnitude of two.

@@ -74,6 +74,8 @@ pub trait Real:
     fn atan2(self, x: Self) -> Self;
     /// Natural exponential.
     fn exp(self) -> Self;
+    /// Two to the power of `self`.
+    fn exp2(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
     /// Real power.
@@ -167,8 +169,8 @@ macro_rules! real {
     };
 }
 
-real!(f64, cbrt => cbrt, sin => sin, cos => cos, exp => exp, ln => log, floor => floor, ceil => ceil, round => round; sqrt sincos atan2 pow);
-real!(f32, cbrt => cbrtf, sin => sinf, cos => cosf, exp => expf, ln => logf, floor => floorf, ceil => ceilf, round => roundf; sqrtf sincosf atan2f powf);
+real!(f64, cbrt => cbrt, sin => sin, cos => cos, exp => exp, exp2 => exp2, ln => log, floor => floor, ceil => ceil, round => round; sqrt sincos atan2 pow);
+real!(f32, cbrt => cbrtf, sin => sinf, cos => cosf, exp => expf, exp2 => exp2f, ln => logf, floor => floorf, ceil => ceilf, round => roundf; sqrtf sincosf atan2f powf);
 
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "numbers that are exact in binary")]
