@@ -275,6 +275,21 @@ fn a_circle_of_any_size_and_its_axis() {
 }
 
 #[test]
+fn single_precision_is_as_exact() {
+    // Around a circle of 2 m at every degree, 0.125 m inside, 0.3 rad late.
+    for degree in 0..360_u16 {
+        let angle = f32::from(degree).to_radians();
+        let at = |angle: f32, radius: f32| [radius * angle.cos(), radius * angle.sin()];
+        let (reference, actual) = (at(angle, 2.0), at(angle - 0.3, 1.875));
+        let error = [reference[0] - actual[0], reference[1] - actual[1]];
+        let [x, y] = at(angle, 1.0);
+        let found = ContourError::from_circle(error, [-y, x], [-0.5 * x, -0.5 * y]).expect("finite");
+        // Twenty roundings of numbers of the size of the radius.
+        assert!((found.magnitude() - 0.125).abs() < 20.0 * f32::EPSILON * 2.0, "{found:?}");
+    }
+}
+
+#[test]
 fn what_is_not_finite_is_named() {
     let fault = ContourError::from_tangent([0.0, f64::INFINITY, 0.0], [1.0, 0.0, 0.0]);
     let quantity = "tracking error";
