@@ -8,6 +8,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
     crate::papers::delay_filter::EXPERIMENT,
     crate::papers::belt_pso::EXPERIMENT,
     crate::papers::cross_coupling::EXPERIMENT,
+    crate::papers::nurbs_reduction::EXPERIMENT,
 ];
 
 /// The experiments that `ids` name, in the order of `experiments`; all of them when `ids` is empty.

@@ -249,13 +249,21 @@ pub struct Figure {
     pub x: Quantity,
     /// From top to bottom.
     pub panels: Vec<Panel>,
+    /// Whether a unit is as long along y as along x, as on a map.
+    pub to_scale: bool,
 }
 
 impl Figure {
     /// A figure without panels.
     #[must_use]
     pub fn new(id: &str, title: &str, x: Quantity) -> Self {
-        Self { id: id.to_owned(), title: title.to_owned(), x, panels: Vec::new() }
+        Self { id: id.to_owned(), title: title.to_owned(), x, panels: Vec::new(), to_scale: false }
+    }
+
+    /// Draws a unit as long along y as along x.
+    #[must_use]
+    pub fn to_scale(self) -> Self {
+        Self { to_scale: true, ..self }
     }
 
     /// Adds a panel below the others.

@@ -142,7 +142,8 @@ fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
     let x = if figure.x.logarithmic { Span::of_decades(xs, most) } else { Span::of(xs, 0.0, most) };
     for (n, panel) in figure.panels.iter().enumerate() {
         let last = n + 1 == figure.panels.len();
-        let y = panel_span(panel, if geometry.plot > 200.0 { 7.0 } else { 5.0 });
+        let ticks = if geometry.plot > 200.0 { 7.0 } else { 5.0 };
+        let (x, y) = scaled(figure, (x, panel_span(panel, ticks)), (most, ticks), &geometry);
         let start = top + step * n as f64;
         let plot = render_multiple(
             plots(panel, (x, y), &geometry, theme),
@@ -168,6 +169,16 @@ fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
     let middle = 0.5 * (geometry.left + geometry.width - geometry.right);
     text(&mut scene, (middle, height - 8.0), &figure.x.label(), TEXT, TextAnchor::Middle, style.ink);
     Ok(scene)
+}
+
+/// Both axes of a panel, the one with more room to the unit widened where the figure is to scale.
+fn scaled(figure: &Figure, (x, y): (Span, Span), ticks: (f64, f64), geometry: &Geometry) -> (Span, Span) {
+    if !figure.to_scale {
+        return (x, y);
+    }
+    let across = geometry.width - geometry.left - geometry.right;
+    let pixel = ((x.to - x.from) / across).max((y.to - y.from) / geometry.plot);
+    (x.widened(across * pixel, ticks.0), y.widened(geometry.plot * pixel, ticks.1))
 }
 
 /// The figure with every value where it stands on its axis.

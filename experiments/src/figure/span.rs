@@ -34,6 +34,12 @@ impl Span {
         Self { from, to, step, decades: false }
     }
 
+    /// The same axis with at least this range, wider by as much on either side.
+    pub(crate) fn widened(self, range: f64, ticks: f64) -> Self {
+        let more = 0.5 * (range - (self.to - self.from)).max(0.0);
+        Self::of([self.from - more, self.to + more].into_iter(), 0.0, ticks)
+    }
+
     /// Where `x` stands, from 0 at the lower end to 1 at the upper.
     pub(crate) fn fraction(&self, x: f64) -> f64 {
         (x - self.from) / (self.to - self.from)
@@ -113,6 +119,14 @@ mod tests {
         assert_eq!(of(-12500.0, 12500.0).tick(-10000.0), "−10000");
         assert_eq!(of(-2e7, 1e7).tick(-1e7), "−1e7");
         assert_eq!(of(-4.0, 4.0).tick(-1e-15), "0");
+    }
+
+    #[test]
+    fn a_wider_axis_keeps_its_middle() {
+        let wider = of(1.0, 3.0).widened(6.0, 5.0);
+        assert_eq!((wider.from, wider.to), (-1.0, 5.0));
+        let kept = of(1.0, 3.0).widened(0.5, 5.0);
+        assert_eq!((kept.from, kept.to), (1.0, 3.0));
     }
 
     #[test]

@@ -4,3 +4,4 @@ pub mod acceleration_curves;
 pub mod belt_pso;
 pub mod cross_coupling;
 pub mod delay_filter;
+pub mod nurbs_reduction;
