@@ -38,16 +38,18 @@ impl Bernstein {
     /// The product.
     pub(super) fn times(&self, other: &Self) -> Self {
         let mut product = alloc::vec![0.0; self.coefficients.len() + other.coefficients.len() - 1];
-        for (k, (a, binomial)) in self.coefficients.iter().zip(binomials(self.degree())).enumerate() {
-            let scaled = a * binomial;
-            let terms = other.coefficients.iter().zip(binomials(other.degree()));
-            for (sum, (b, binomial)) in product.iter_mut().skip(k).zip(terms) {
-                *sum += scaled * (b * binomial);
-            }
+        // Times their binomials, coefficients multiply as those of powers do.
+        let scaled: Vec<f64> = other.scaled().collect();
+        for (k, a) in self.scaled().enumerate() {
+            product.iter_mut().skip(k).zip(&scaled).for_each(|(sum, b)| *sum += a * b);
         }
         let degree = product.len() - 1;
         product.iter_mut().zip(binomials(degree)).for_each(|(sum, binomial)| *sum /= binomial);
         Self { coefficients: product }
+    }
+
+    fn scaled(&self) -> impl Iterator<Item = f64> + '_ {
+        self.coefficients.iter().zip(binomials(self.degree())).map(|(b, binomial)| b * binomial)
     }
 
     /// The square.

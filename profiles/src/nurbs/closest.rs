@@ -100,13 +100,15 @@ impl<const D: usize> NurbsCurve<D> {
             } else {
                 high = u;
             }
-            let newton = u - slope / (dot(&first, &first) + dot(&apart, &second));
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let step = (next - u).abs();
-            u = next;
-            if next <= low || next >= high || step <= 0.5 * f64::EPSILON * low.abs().max(high.abs()) {
+            let step = -slope / (dot(&first, &first) + dot(&apart, &second));
+            if step.abs() <= 0.5 * f64::EPSILON * u.abs() {
                 break;
             }
+            let next = if u + step > low && u + step < high { u + step } else { 0.5 * (low + high) };
+            if next <= low || next >= high {
+                break;
+            }
+            u = next;
         }
         u
     }
