@@ -154,6 +154,18 @@ pub enum FieldOrientedError {
     },
 }
 
+/// A differentiator that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum DifferentiatorError {
+    /// A sampling period that is not positive and finite, or too short or long to divide by, s.
+    #[error("the sampling period must be positive and finite, and so its inverse, got {0} s")]
+    Period(f64),
+    /// A time constant that is negative, infinite or NaN, s.
+    #[error("the time constant must be finite and not negative, got {0} s")]
+    TimeConstant(f64),
+}
+
 impl From<OutOfRange> for FeedforwardError {
     fn from(OutOfRange { which, range, value }: OutOfRange) -> Self {
         Self::Parameter { which, range, value }

@@ -4,6 +4,7 @@
 mod cascade;
 mod contour;
 mod current;
+mod differentiator;
 mod error;
 mod feedforward;
 mod field_oriented;
@@ -21,9 +22,10 @@ pub use contour::{
 pub use current::{
     CurrentInput, CurrentLoop, CurrentLoopState, CurrentOutput, CurrentStatus, PiGains, Windings,
 };
+pub use differentiator::{Differentiator, DifferentiatorState};
 pub use error::{
-    CascadeError, CurrentLoopError, FeedforwardError, FieldOrientedError, ObserverError, PidError,
-    SlidingModeError,
+    CascadeError, CurrentLoopError, DifferentiatorError, FeedforwardError, FieldOrientedError, ObserverError,
+    PidError, SlidingModeError,
 };
 pub use feedforward::Feedforward;
 pub use field_oriented::{FieldOriented, FieldOrientedInput, FieldOrientedOutput, FieldOrientedState};

@@ -3,12 +3,11 @@
 use std::array::from_fn;
 
 use anyhow::Result;
-use control::{CommandedPath, ContourError, CrossCoupling};
+use control::{CommandedPath, ContourError, CrossCoupling, Differentiator, DifferentiatorState};
 use identify::Signal;
 use plants::nalgebra::SVector;
 use plants::{
-    BallScrewAxis, CartesianRobot, Channel, Clock, ControlTick, Disturbance, Encoder, HeldLinear, LowPass,
-    Probe, Simulation, Transition,
+    BallScrewAxis, CartesianRobot, Channel, Clock, ControlTick, Disturbance, Encoder, Probe, Simulation,
 };
 use profiles::Interval;
 
@@ -34,29 +33,25 @@ pub(super) struct Case<const N: usize> {
     pub(super) count: Option<f64>,
 }
 
-/// What a controller sees of an axis through an encoder: the counts, and a velocity made from them.
+/// What a controller sees of the axes through encoders: counts, and velocities made from them.
 #[derive(Clone, Copy, Debug)]
-struct Counted {
+struct Counted<const N: usize> {
     encoder: Encoder,
-    filter: Transition<1, 1>,
-    period: f64,
-    before: Option<f64>,
-    velocity: SVector<f64, 1>,
+    velocity: Differentiator,
+    axes: [DifferentiatorState; N],
 }
 
-impl Counted {
-    fn see(&mut self, angle: f64) -> (f64, f64) {
+impl<const N: usize> Counted<N> {
+    fn see(&mut self, axis: usize, angle: f64) -> (f64, f64) {
         let now = self.encoder.quantise(angle);
-        let rate = (now - self.before.replace(now).unwrap_or(now)) / self.period;
-        self.velocity = self.filter.apply(&self.velocity, &SVector::from([rate]));
-        (now, self.velocity[0])
+        (now, self.axes.get_mut(axis).map_or(0.0, |state| self.velocity.update(state, now)))
     }
 }
 
 /// What the controller keeps between its ticks.
 struct Memory<const N: usize> {
     axes: [Axis; N],
-    counted: Option<[Counted; N]>,
+    counted: Option<Counted<N>>,
     path: CommandedPath<N>,
 }
 
@@ -69,11 +64,11 @@ impl<const N: usize> Case<N> {
     fn memory(&self, period: f64) -> Result<Memory<N>> {
         let counted = match self.count {
             None => None,
-            Some(count) => {
-                let (encoder, velocity) = (Encoder::new(count)?, SVector::zeros());
-                let filter = LowPass::new(VELOCITY_FILTER)?.transition(period)?;
-                Some([Counted { encoder, filter, period, before: None, velocity }; N])
-            }
+            Some(count) => Some(Counted {
+                encoder: Encoder::new(count)?,
+                velocity: Differentiator::new(period, VELOCITY_FILTER)?,
+                axes: [DifferentiatorState::new(); N],
+            }),
         };
         Ok(Memory { axes: [self.law.axis(period)?; N], counted, path: CommandedPath::new() })
     }
@@ -95,7 +90,7 @@ impl<const N: usize> Case<N> {
             let (angles, speeds) = (robot.angles(tick.state), robot.speeds(tick.state));
             let mut seen: [_; N] = match &mut memory.counted {
                 None => from_fn(|i| (angles[i], speeds[i])),
-                Some(counted) => from_fn(|i| counted[i].see(angles[i])),
+                Some(counted) => from_fn(|i| counted.see(i, angles[i])),
             };
             seen.iter_mut().zip(&mut memory.axes).for_each(|(seen, axis)| *seen = axis.observe(*seen));
             let path = memory.path.update(references.map(|r| r.position));
@@ -235,9 +230,9 @@ impl<const N: usize> Course<N> {
         Ok(signal.integral_time_square_error(Some(Interval { lower: 0.0, upper: end }))?)
     }
 
-    /// Total variation of a torque from the load to the end, N m/s.
-    pub(super) fn chatter(&self, axis: usize) -> Result<f64> {
-        let window = Interval { lower: LOAD.1, upper: HORIZON };
+    /// Total variation of a torque between two instants in s, N m/s.
+    pub(super) fn chatter(&self, axis: usize, from: f64, to: f64) -> Result<f64> {
+        let window = Interval { lower: from, upper: to };
         Ok(Signal::sampled(&self.torques[axis], self.period)?.total_variation_rate(Some(window))?)
     }
 }

@@ -26,6 +26,8 @@ pub(super) enum Law {
     SmcInLayer(f64),
     /// Terminal surface, improved double-power law, integral compensation: equation (24).
     Dsmc,
+    /// The same with another `alpha` in 1/s.
+    DsmcOn { alpha: f64 },
     /// Linear surface, exponential law: the traditional one of table 3.
     Traditional,
     /// Linear surface of a slope in 1/s, super-twisting for loads that change by so many N m/s, matched to the sampling.
@@ -65,7 +67,9 @@ impl Law {
                 let law = ReachingLaw::exponential(SMC[0], SMC[1])?;
                 sliding(terminal, law.with_switching(Switching::Saturation { width })?)?
             }
-            Self::Dsmc => {
+            Self::Dsmc => return Self::DsmcOn { alpha }.axis(period),
+            Self::DsmcOn { alpha } => {
+                let terminal = SlidingSurface::terminal(alpha, beta, p, q)?;
                 let ([k1, k2, k3], [b2, b3]) = (DSMC, DSMC_POWERS);
                 sliding(terminal, ReachingLaw::improved_double_power(k1, k2, k3, b2, b3)?)?
                     .with_integral_compensation(COMPENSATION)?

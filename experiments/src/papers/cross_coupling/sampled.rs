@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Context as _, Result};
+use plants::HaltError;
 use rayon::prelude::*;
 
 use super::ROLES;
 use super::bench::Case;
 use super::laws::Law;
-use super::setup::{COUNT, RATE};
+use super::setup::{COUNT, HORIZON, RATE, SINGLE_START, STARTED};
 use crate::experiment::Outcome;
 use crate::figure::{Figure, Panel, Quantity, Role};
 use crate::row::Value;
@@ -19,27 +20,24 @@ pub(super) const FILE: &str = file!();
 /// Control periods of 10, 5, 2 and 1 kHz in ticks.
 const PERIODS: [u32; 4] = [1, 2, 5, 10];
 /// The period at which encoders and boundary layers are compared, in ticks: 1 kHz.
-const SLOW: u32 = 10;
-/// Laws whose torques vary by up to a quarter more than another's are as quiet.
-const AS_QUIET: f64 = 1.25;
-
+pub(super) const SLOW: u32 = 10;
 /// What a controller has to work with, in words and for the name of a row: its period in ticks and its encoder.
 pub(super) const CONDITIONS: [(&str, &str, u32, Option<f64>); 2] =
     [("10 kHz, state known", "", 1, None), ("1 kHz, encoder of 17 bits", "-encoder", SLOW, Some(COUNT))];
 
-/// What is read off x of the helix, from rest on the path, loaded.
+/// What is read off x of the helix, loaded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     /// ITSE from the load on, rad^2 s^2.
     pub(super) robustness: f64,
-    /// Total variation of the torque from the load on, N m/s.
+    /// Total variation of the torque once the start is over, N m/s.
     pub(super) chatter: f64,
 }
 
 impl Reading {
     /// Whether the torque is no more restless than another's.
     pub(super) fn as_quiet_as(&self, other: &Self) -> bool {
-        self.chatter <= AS_QUIET * other.chatter
+        self.chatter <= other.chatter
     }
 
     /// What it costs and what it leaves, as a point.
@@ -51,14 +49,23 @@ impl Reading {
 /// A law at a period in ticks, with an encoder or the state known.
 pub(super) type Setting = (Law, u32, Option<f64>);
 
-/// The readings of many settings; none where a loop diverges.
-pub(super) fn readings(settings: &[Setting]) -> Result<Vec<Option<Reading>>> {
+/// The readings of many settings from a start in rad; none where a loop diverges.
+fn readings_from(start: f64, settings: &[Setting]) -> Result<Vec<Option<Reading>>> {
     let reading = |&(law, every, count): &Setting| {
-        let case = Case { loaded: true, every, count, ..Case::new(law, [0.0]) };
-        let Ok(course) = case.run() else { return Ok(None) };
-        Ok(Some(Reading { robustness: course.robustness(0)?, chatter: course.chatter(0)? }))
+        let course = match (Case { loaded: true, every, count, ..Case::new(law, [start]) }).run() {
+            Ok(course) => course,
+            Err(error) if error.is::<HaltError>() => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let chatter = course.chatter(0, STARTED, HORIZON)?;
+        Ok(Some(Reading { robustness: course.robustness(0)?, chatter }))
     };
     settings.par_iter().map(reading).collect()
+}
+
+/// The readings of many settings from rest on the path.
+pub(super) fn readings(settings: &[Setting]) -> Result<Vec<Option<Reading>>> {
+    readings_from(0.0, settings)
 }
 
 /// DSMC in a condition.
@@ -74,7 +81,7 @@ pub(super) fn left(condition: &str) -> Quantity {
 
 /// The axis of what it costs.
 pub(super) fn cost() -> Quantity {
-    Quantity::new("total variation of the torque", "", "N m/s").logarithmic()
+    Quantity::new("total variation of the torque from 1 s on", "", "N m/s").logarithmic()
 }
 
 /// Robustness and chatter at four rates.
@@ -107,7 +114,7 @@ pub(super) fn rates(outcome: &mut Outcome) -> Result<()> {
     Ok(())
 }
 
-/// A value of SMC and of DSMC at every abscissa, none where a loop diverges or holds the load no better than PID.
+/// A value of SMC and of DSMC at every abscissa from the start of table 1, none where a loop diverges or holds the load no better than PID.
 struct Comparison {
     at: Vec<f64>,
     smc: Vec<Option<f64>>,
@@ -118,7 +125,7 @@ impl Comparison {
     fn new(at: Vec<f64>, settings: &[(u32, Option<f64>)], of_pid: f64) -> Result<Self> {
         let of = |law| -> Result<Vec<Option<f64>>> {
             let all: Vec<Setting> = settings.iter().map(|(every, count)| (law, *every, *count)).collect();
-            let found = readings(&all)?.into_iter();
+            let found = readings_from(SINGLE_START, &all)?.into_iter();
             Ok(found.map(|r| r.map(|r| r.robustness).filter(|left| *left < of_pid)).collect())
         };
         Ok(Self { at, smc: of(Law::Smc)?, dsmc: of(Law::Dsmc)? })

@@ -41,6 +41,8 @@ pub(super) const DERIVATIVE_FILTER: f64 = 0.01;
 pub(super) const SINGLE_START: f64 = 1.0;
 /// Start of table 3: the origin, but for z, whose printed figures are met from ten radians up.
 pub(super) const START: [f64; 3] = [0.0, 0.0, 10.0];
+/// When the start is over, s.
+pub(super) const STARTED: f64 = 1.0;
 /// A start on the path.
 pub(super) const ON_PATH: [f64; 3] = [0.0, 1.0, 0.0];
 /// One count of the encoder, rad: 17 bits a turn.
