@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::insert::insert;
-use super::{Homogeneous, Knots, NurbsCurve};
+use super::{Homogeneous, Knots, NurbsCurve, Side};
 
 /// One rational polynomial piece of a curve in Bezier form.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,5 +45,30 @@ impl<const D: usize> NurbsCurve<D> {
             points: points.to_vec(),
         };
         spans.zip(pieces).map(segment).collect()
+    }
+
+    /// The piece of the span that `u`, a parameter of the domain, lies in: control point `j` is the blossom of the span's
+    /// start, `degree - j` times, and its end, `j` times, which takes convex combinations of the acting points only.
+    pub(super) fn span_segment(&self, u: f64) -> BezierSegment<D> {
+        let (points, knots) = self.acting(u, Side::After);
+        let degree = points.len().saturating_sub(1);
+        let (below, above) = knots.split_at(degree.min(knots.len()));
+        let domain = self.domain();
+        let from = below.last().copied().unwrap_or(domain.lower);
+        let to = above.first().copied().unwrap_or(domain.upper);
+        let blossom = |ends: usize| {
+            let mut work = points.to_vec();
+            for level in 0..degree {
+                let at = if level < ends { to } else { from };
+                let local = below.iter().skip(level).zip(above);
+                for (k, (low, high)) in local.enumerate() {
+                    if let Some([here, next]) = work.get_mut(k..k + 2) {
+                        *here = here.blended(next, (at - low) / (high - low));
+                    }
+                }
+            }
+            work.first().copied().unwrap_or(Homogeneous::ZERO)
+        };
+        BezierSegment { from, to, points: (0..=degree).map(blossom).collect() }
     }
 }

@@ -95,7 +95,8 @@ fn point_of<const D: usize, const M: usize, const K: usize>(
     u: f64,
 ) -> Option<Homogeneous<D>> {
     let mut points = <[Homogeneous<D>; M]>::try_from(points).ok()?;
-    Some(de_boor(&mut points, <&[f64; K]>::try_from(knots).ok()?, u))
+    let knots = <&[f64; K]>::try_from(knots).ok()?;
+    Some(de_boor(&mut points, knots, u))
 }
 
 /// The same by constant sizes, so that the loops unroll; `K` is twice the degree `M - 1`.
@@ -183,7 +184,7 @@ impl<const D: usize> NurbsCurve<D> {
 
     /// The control points that act at `u` and the knots that matter there.
     #[inline]
-    fn acting(&self, u: f64, side: Side) -> (&[Homogeneous<D>], &[f64]) {
+    pub(super) fn acting(&self, u: f64, side: Side) -> (&[Homogeneous<D>], &[f64]) {
         let first = self.knots().first_acting(u, side);
         let points = self.homogeneous_points().get(first..=first + self.degree()).unwrap_or_default();
         (points, self.knots().local(first))

@@ -17,7 +17,7 @@ impl<const D: usize> NurbsCurve<D> {
         if !(u > domain.lower && u < domain.upper) {
             return Err(NurbsError::Parameter { value: u, lower: domain.lower, upper: domain.upper });
         }
-        let multiplicity = knots.multiplicity(u) + times;
+        let multiplicity = knots.multiplicity(u).saturating_add(times);
         if multiplicity > degree {
             return Err(NurbsError::Multiplicity { knot: u, multiplicity, most: degree });
         }

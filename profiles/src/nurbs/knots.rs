@@ -32,6 +32,9 @@ pub struct Knots {
     // The ends, which every evaluation needs.
     lower: f64,
     upper: f64,
+    // Equal parts of the domain, four for every span; how many inner knots lie before each part.
+    parts_per_unit: f64,
+    before_part: Vec<u32>,
 }
 
 impl Knots {
@@ -183,10 +186,17 @@ impl Knots {
     /// The first of the `degree + 1` control points that act at `u`, a parameter of the domain.
     #[inline]
     pub(super) fn first_acting(&self, u: f64, side: Side) -> usize {
-        // Never at the end of a repeated knot's empty span, and at both ends of the domain inside it.
-        match side {
-            Side::Before => self.inner().partition_point(|knot| *knot < u),
-            Side::After => self.inner().partition_point(|knot| *knot <= u),
+        // Knots of earlier parts are smaller than u and those of later parts larger: few are left to search.
+        let part = part_of(u, self.lower, self.parts_per_unit);
+        let (from, to) = match self.before_part.get(part..) {
+            Some([from, to, ..]) => (*from as usize, *to as usize),
+            _ => (0, self.inner().len()),
+        };
+        let some = self.inner().get(from..to).unwrap_or_default();
+        // Never inside the empty span of a repeated knot, at both ends of the domain neither.
+        from + match side {
+            Side::Before => some.partition_point(|knot| *knot < u),
+            Side::After => some.partition_point(|knot| *knot <= u),
         }
     }
 
@@ -199,7 +209,12 @@ impl Knots {
     /// Knots that an exact operation made of checked ones.
     pub(super) fn unchecked(degree: usize, all: Vec<f64>) -> Self {
         let (lower, upper) = (all.first().copied().unwrap_or(0.0), all.last().copied().unwrap_or(0.0));
-        Self { degree, all, lower, upper }
+        let inner = all.get(degree + 1..all.len().saturating_sub(degree + 1)).unwrap_or_default();
+        let parts = 4 * (inner.len() + 1);
+        let parts_per_unit = parts as f64 / (upper - lower);
+        let before = |part| inner.partition_point(|knot| part_of(*knot, lower, parts_per_unit) < part) as u32;
+        let before_part = (0..=parts + 1).map(before).collect();
+        Self { degree, all, lower, upper, parts_per_unit, before_part }
     }
 
     /// Every distinct knot once more than it is there.
@@ -212,6 +227,12 @@ impl Knots {
     pub(super) fn into_vec(self) -> Vec<f64> {
         self.all
     }
+}
+
+/// The part of the domain that `u` lies in; the end is a part of its own.
+#[inline]
+fn part_of(u: f64, lower: f64, parts_per_unit: f64) -> usize {
+    ((u - lower) * parts_per_unit) as usize
 }
 
 /// Degrees that fit the buffers.
