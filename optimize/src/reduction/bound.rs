@@ -11,7 +11,7 @@ use super::system::{Curvature, System};
 ///
 /// If `|C W - N| <= t W` at all samples, then `sum y (C W - N) <= t sum |y| W` for any vectors `y`. With those that are
 /// orthogonal to every free control point both sides are linear in the weights, and the least of their difference over
-/// the box of the weights is above zero for every `t` below the bound.
+/// all weights that are allowed is above zero for every `t` below the bound.
 ///
 /// # References
 /// S. Boyd, L. Vandenberghe, "Convex optimization", Cambridge University Press, 2004, section 5.8,
@@ -34,21 +34,17 @@ pub(super) fn lower_bound<const D: usize>(
             *length += basis * size;
         }
     }
-    let (least, most) = problem.weight_range;
-    let violation = |t: f64| -> f64 {
-        let terms =
-            sums.iter().zip(&centre.points).enumerate().map(|(index, ((vector, point, length), at))| {
-                let tied = problem.tied.iter().find(|tied| tied.index == index);
-                // The part of a point that goes with its weight; free directions are orthogonal to all multipliers.
-                let through = tied.map_or([0.0; D], |tied| tied.from);
-                let slope = point - dot(&through, vector) - t * length;
-                let free = problem.weights_free && tied.is_none_or(|tied| tied.through.is_some());
-                if free { (least * slope).min(most * slope) } else { at.weight * slope }
-            });
-        terms.sum()
+    let violation = |t: f64| {
+        let slopes = sums.iter().enumerate().map(|(index, (vector, point, length))| {
+            let tied = problem.tied.iter().find(|tied| tied.index == index);
+            // The part of a point that goes with its weight; free directions are orthogonal to all multipliers.
+            let through = tied.map_or([0.0; D], |tied| tied.from);
+            point - dot(&through, vector) - t * length
+        });
+        least_violation(problem, &slopes.collect::<Vec<f64>>(), centre)
     };
     let (mut low, mut high) = (0.0, centre.level);
-    if !(violation(low) > 0.0) {
+    if violation(low) <= 0.0 {
         return 0.0;
     }
     for _ in 0..60 {
@@ -61,6 +57,33 @@ pub(super) fn lower_bound<const D: usize>(
     }
     // Sums of so many terms, each as large as the curve.
     (low - 1e-13).max(0.0)
+}
+
+/// The least sum of slope times weight over all weights inside their bounds, of the sum that they are kept to, and of the
+/// ratio of the last to the first if that is kept: those with the smallest slopes are as large as they can be.
+fn least_violation<const D: usize>(problem: &Problem<D>, slopes: &[f64], centre: &Centre<D>) -> f64 {
+    let weights = centre.points.iter().map(|h| h.weight);
+    if !problem.weights_free {
+        return slopes.iter().zip(weights).map(|(slope, weight)| slope * weight).sum();
+    }
+    let (least, most) = problem.weight_range;
+    // What a weight adds to the violation and to the sum, and its bounds.
+    let mut terms: Vec<_> = slopes.iter().map(|slope| (*slope, 1.0, least, most)).collect();
+    if let (Some(ratio), Some((slope, _, _, _))) = (problem.last_weight, terms.last().copied()) {
+        terms.pop();
+        if let Some(first) = terms.first_mut() {
+            *first = (first.0 + ratio * slope, 1.0 + ratio, least.max(least / ratio), most.min(most / ratio));
+        }
+    }
+    terms.sort_unstable_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)));
+    let mut left = weights.sum::<f64>() - terms.iter().map(|(_, share, low, _)| share * low).sum::<f64>();
+    let mut sum = 0.0;
+    for (slope, share, low, high) in terms {
+        let more = (left / share).clamp(0.0, high - low);
+        left -= share * more;
+        sum += slope * (low + more);
+    }
+    sum
 }
 
 /// The multipliers of the samples, up to a common factor.
@@ -101,6 +124,11 @@ fn orthogonal<const D: usize>(
             system.add_right(&mut right, sample, &Homogeneous { weighted: *y, weight: 0.0 });
         }
         system.tie_right(&mut right);
+        // A reach is not negative: multipliers may point against it.
+        for tied in problem.tied.iter().filter(|tied| tied.along.is_some()) {
+            let reach = system.unknown(tied.index, 0);
+            right[reach] = right[reach].max(0.0);
+        }
         system.solve(&mut right);
         let steps = system.step(&right);
         for ((sample, y), share) in samples.iter().zip(&mut multipliers).zip(&shares) {

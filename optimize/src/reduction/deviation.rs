@@ -207,11 +207,11 @@ fn halve<const D: usize>(piece: &[Homogeneous<D>], into: &mut Vec<Homogeneous<D>
     into.extend_from_slice(piece);
     let (left, right) = into[start..].split_at_mut(count);
     // De Casteljau in place: the left ends of the levels are the left half, what is left is the right half.
-    for level in 1..count {
+    for (level, left) in (1..count).zip(left.iter_mut().skip(1)) {
         for index in 0..count - level {
             right[index] = middle(&right[index], &right[index + 1]);
         }
-        left[level] = right[0];
+        *left = right[0];
     }
 }
 

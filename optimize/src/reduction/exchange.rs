@@ -1,38 +1,50 @@
 //! Samples where the distance is largest, and the optimum over all of them.
 
-use profiles::nurbs::Homogeneous;
+use profiles::nurbs::{Homogeneous, NurbsCurve};
 
 use super::bound::lower_bound;
-use super::minimax::minimax;
+use super::error::ReductionError;
+use super::minimax::{Centre, minimax};
 use super::problem::{Problem, Sample};
+use super::reduce::{Reduced, judged};
 
-/// Rounds of adding samples; two or three are enough.
-const ROUNDS: usize = 8;
+/// How close to their optimum the samples are brought from round to round; the last one until no peak is left.
+const GAPS: [f64; 3] = [3e-2, 3e-3, 3e-4];
 
-/// A peak counts if it is so much above the level of the samples.
-const ABOVE: f64 = 2e-4;
+/// Rounds of adding samples; three or four are enough.
+const ROUNDS: usize = 10;
 
-/// The control points of the least largest distance over the whole curve, and a bound that no others fall below, both for
-/// a curve of size one.
+/// The reduction with the least largest distance over the whole curve, and a bound that no other falls below.
 pub(super) fn least_largest<const D: usize>(
+    curve: &NurbsCurve<D>,
     problem: &Problem<D>,
-    mut points: Vec<Homogeneous<D>>,
-) -> (Vec<Homogeneous<D>>, f64) {
+    points: Vec<Homogeneous<D>>,
+) -> Result<Reduced<D>, ReductionError> {
     let grid = grid(problem);
+    let mut start = Centre { points: problem.scaled(points), level: 0.0 };
     let mut samples: Vec<Sample<D>> = grid.iter().skip(1).step_by(2).copied().collect();
-    samples.extend(peaks(problem, &grid, &points, 0.0));
-    let mut bound = 0.0;
-    for _ in 0..ROUNDS {
-        let centre = minimax(problem, &samples, points);
+    samples.extend(peaks(problem, &grid, &start.points, 0.0));
+    let mut bound = 0.0_f64;
+    for round in 0.. {
+        let [.., last] = GAPS;
+        let gap = GAPS.get(round).copied().unwrap_or(last);
+        let (centre, near) = minimax(problem, &samples, &start, gap);
         bound = lower_bound(problem, &samples, &centre).max(bound);
-        let more = peaks(problem, &grid, &centre.points, centre.level * (1.0 + ABOVE));
-        points = centre.points;
-        if more.is_empty() {
-            break;
+        // Peaks that are about to rise come along, until the last rounds.
+        let above = if gap > last { 1.0 - gap } else { 1.0 + last };
+        let more = peaks(problem, &grid, &centre.points, centre.level * above);
+        if round >= ROUNDS || (more.is_empty() && gap <= last) {
+            // Between the grid there may be another one yet.
+            let found = judged(curve, problem, &centre.points, bound * problem.size)?;
+            if round >= ROUNDS || found.deviation.attained <= centre.level * above * problem.size {
+                return Ok(found);
+            }
+            samples.push(problem.sample(found.deviation.at));
         }
         samples.extend(more);
+        start = near;
     }
-    (points, bound)
+    judged(curve, problem, &start.points, bound * problem.size)
 }
 
 /// Parameters closer at the ends of each span, where a polynomial is steeper.

@@ -34,9 +34,8 @@ pub(super) fn mean_square<const D: usize>(
         system.add(sample, &identity(factor, if weights_free { factor } else { 0.0 }));
     }
     system.tie();
-    if !weights_free {
-        pin_weights(problem, &mut system);
-    }
+    let pinned = pinned(problem, weights_free);
+    pinned.iter().for_each(|index| system.add_diagonal(*index, D, 1e30));
     system.factor();
     // Twice: the second solution takes away what roundings of the first have left.
     for _ in 0..2 {
@@ -51,22 +50,20 @@ pub(super) fn mean_square<const D: usize>(
             system.add_right(&mut right, sample, &Homogeneous { weighted, weight });
         }
         system.tie_right(&mut right);
-        if !weights_free && problem.weights_free {
-            for index in 0..points.len() {
-                let weight = system.unknown(index, D);
-                right[weight] = 0.0;
-            }
-        }
+        pinned.iter().for_each(|index| right[system.unknown(*index, D)] = 0.0);
         system.solve(&mut right);
         points = stepped(&points, &system.step(&right), 1.0);
     }
     points
 }
 
-/// Keeps the weights where they are in a system that has them for unknowns.
-fn pin_weights<const D: usize>(problem: &Problem<D>, system: &mut System<D>) {
-    if problem.weights_free {
-        (0..problem.knots.points()).for_each(|index| system.add_diagonal(index, D, 1e30));
+/// The control points whose weights are unknowns of the system and stay where they are.
+fn pinned<const D: usize>(problem: &Problem<D>, weights_free: bool) -> Vec<usize> {
+    let last = problem.knots.points() - 1;
+    match (problem.weights_free, weights_free, problem.last_weight) {
+        (true, false, _) => (0..=last).collect(),
+        (true, true, Some(_)) => vec![0, last],
+        _ => Vec::new(),
     }
 }
 

@@ -5,16 +5,26 @@ use profiles::nurbs::Homogeneous;
 use super::problem::{Problem, Sample, dot, norm};
 use super::system::{Curvature, System, stepped};
 
-/// How far above the optimum of the samples the level may lie, as a part of it.
-const GAP: f64 = 2e-4;
-
 /// Newton steps in all, several times what it takes.
 const STEPS: usize = 400;
 
+/// The gap at which a centre is kept to start from when there are more samples.
+const NEAR: f64 = 0.1;
+
 /// Control points in the middle of all whose distance is below a level.
+#[derive(Clone)]
 pub(super) struct Centre<const D: usize> {
     pub(super) points: Vec<Homogeneous<D>>,
     pub(super) level: f64,
+}
+
+impl<const D: usize> Centre<D> {
+    /// The same with the level above the distances at all samples.
+    fn above(&self, samples: &[Sample<D>]) -> Self {
+        let largest = samples.iter().map(|sample| sample.distance(&self.points)).fold(0.0, f64::max);
+        let level = if self.level > largest { self.level } else { 1.2 * largest };
+        Self { points: self.points.clone(), level }
+    }
 }
 
 /// Looks for the least `t` with `|C W - N| <= t W` at every sample, weights and reaches inside their bounds. For every `t`
@@ -22,7 +32,8 @@ pub(super) struct Centre<const D: usize> {
 ///
 /// The analytic centre of the set, the minimum of `- sum log (t^2 W^2 - |C W - N|^2)` minus the logarithms of the
 /// distances to the bounds, is followed as `t` falls: a step along the tangent of its path, and Newton's method back to
-/// it. The optimum lies at most two per sample and bound over the slope of the barrier below `t`.
+/// it. The optimum lies at most two per sample and bound over the slope of the barrier below `t`: `gap` is that as a part
+/// of `t`. Besides, the first centre that was close enough to start from again.
 ///
 /// # References
 /// - S. Boyd, L. Vandenberghe, "Convex optimization", Cambridge University Press, 2004, sections 4.2.5 and 11.3,
@@ -32,24 +43,33 @@ pub(super) struct Centre<const D: usize> {
 pub(super) fn minimax<const D: usize>(
     problem: &Problem<D>,
     samples: &[Sample<D>],
-    points: Vec<Homogeneous<D>>,
-) -> Centre<D> {
-    let largest = samples.iter().map(|sample| sample.distance(&points)).fold(0.0, f64::max);
-    let mut now = Centre { points, level: 1.2 * largest };
-    if !(largest > 0.0 && problem.inside(&now.points)) {
-        return now;
+    start: &Centre<D>,
+    gap: f64,
+) -> (Centre<D>, Centre<D>) {
+    let mut now = start.above(samples);
+    let mut near = now.clone();
+    let mut waiting = true;
+    if !(now.level > 0.0 && problem.inside(&now.points)) {
+        return (now, near);
     }
     let mut path = Path { problem, samples, system: System::new(problem) };
     let bounds = problem.tied.len() + if problem.weights_free { 2 * now.points.len() } else { 0 };
     let count = (2 * samples.len() + bounds) as f64;
     for _ in 0..STEPS {
         let Some(Step { decrement, slope, along }) = path.newton(&mut now) else { break };
-        // Near the centre, where the tangent is that of the path.
-        if decrement < 0.2 && (count <= GAP * now.level * slope || !path.descend(&mut now, &along)) {
-            break;
+        // Near the centre the tangent is that of the path.
+        if decrement < 0.2 {
+            if waiting && count <= NEAR * now.level * slope {
+                (near, waiting) = (now.clone(), false);
+            }
+            // Multipliers are those of the optimum at the centre itself only.
+            let enough = count <= gap * now.level * slope;
+            if (enough && decrement < 1e-3) || !(enough || path.descend(&mut now, &along)) {
+                break;
+            }
         }
     }
-    now
+    (now, near)
 }
 
 struct Path<'a, const D: usize> {
@@ -114,8 +134,10 @@ impl<const D: usize> Path<'_, D> {
         self.system.solve(&mut along);
         let mut solution = gradient.clone();
         self.system.solve(&mut solution);
-        let square: f64 = solution.iter().zip(&gradient).map(|(s, g)| s * g).sum();
-        if !(square >= 0.0 && square.is_finite()) {
+        self.constrain([&mut along, &mut solution]);
+        // At the centre a rounding, of either sign.
+        let square = solution.iter().zip(&gradient).map(|(s, g)| s * g).sum::<f64>().max(0.0);
+        if !square.is_finite() {
             return None;
         }
         solution.iter_mut().for_each(|x| *x = -*x);
@@ -139,6 +161,44 @@ impl<const D: usize> Path<'_, D> {
             if let Some(reach) = tied.and_then(|tied| tied.reach(&now.points)) {
                 gradient[system.unknown(index, 0)] -= 1.0 / reach;
                 system.add_diagonal(index, 0, 1.0 / (reach * reach));
+            }
+        }
+    }
+
+    /// Takes from solutions what would change the sum of the weights, or the ratio of the last to the first if it is kept.
+    fn constrain(&self, solutions: [&mut Vec<f64>; 2]) {
+        let Self { problem, system, .. } = self;
+        if !problem.weights_free {
+            return;
+        }
+        let last = problem.knots.points() - 1;
+        let weight =
+            |solution: &[f64], index: usize| solution.get(system.unknown(index, D)).copied().unwrap_or(0.0);
+        let measures = |solution: &[f64]| {
+            let sum = (0..=last).map(|index| weight(solution, index)).sum::<f64>();
+            let ratio =
+                problem.last_weight.map_or(0.0, |ratio| weight(solution, last) - ratio * weight(solution, 0));
+            [sum, ratio]
+        };
+        let (mut by_sum, mut by_ratio) = (system.right(), system.right());
+        (0..=last).for_each(|index| by_sum[system.unknown(index, D)] = 1.0);
+        system.solve(&mut by_sum);
+        if let Some(ratio) = problem.last_weight {
+            by_ratio[system.unknown(last, D)] = 1.0;
+            by_ratio[system.unknown(0, D)] = -ratio;
+            system.solve(&mut by_ratio);
+        }
+        let ([a, b], [c, d]) = (measures(&by_sum), measures(&by_ratio));
+        for solution in solutions {
+            let [sum, ratio] = measures(solution);
+            let (first, second) = if problem.last_weight.is_some() {
+                let determinant = a * d - b * c;
+                ((d * sum - c * ratio) / determinant, (a * ratio - b * sum) / determinant)
+            } else {
+                (sum / a, 0.0)
+            };
+            for ((x, s), r) in solution.iter_mut().zip(&by_sum).zip(&by_ratio) {
+                *x -= first * s + second * r;
             }
         }
     }

@@ -10,6 +10,8 @@ mod minimax;
 mod options;
 mod problem;
 mod reduce;
+mod sampled;
+mod search;
 mod system;
 mod tolerance;
 
@@ -17,3 +19,4 @@ pub use deviation::{Deviation, deviation};
 pub use error::ReductionError;
 pub use options::{Criterion, Ends, Reduction, Target, Weights};
 pub use reduce::{Reduced, reduce_degree};
+pub use search::{Freed, ReductionSearch};

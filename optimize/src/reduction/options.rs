@@ -56,8 +56,8 @@ pub enum Target {
     Degree(usize),
     /// These knots, over the interval of the curve.
     Knots(Knots),
-    /// From the knots of [`Target::Degree`] on, every span that deviates by more than the tolerance is halved, until none
-    /// does.
+    /// From the knots of [`Target::Degree`] on, the spans that deviate most are halved until none deviates by more than the
+    /// tolerance.
     Tolerance {
         /// The largest deviation allowed, in the unit of the curve.
         tolerance: f64,

@@ -82,9 +82,10 @@ pub(super) struct Problem<const D: usize> {
     pub(super) curve: NurbsCurve<D>,
     pub(super) knots: Knots,
     pub(super) tied: Vec<Tied<D>>,
-    /// Whether weights are free, and between which bounds.
+    /// Whether weights are free, between which bounds, and what the last is beside the first if that is kept.
     pub(super) weights_free: bool,
     pub(super) weight_range: (f64, f64),
+    pub(super) last_weight: Option<f64>,
     pub(super) size: f64,
     centre: [f64; D],
     weight: f64,
@@ -112,6 +113,7 @@ impl<const D: usize> Problem<D> {
         let mut problem = Self {
             weights_free: matches!(weights, Weights::Free | Weights::Inner),
             weight_range: (bounds.0 / WEIGHT_RATIO, bounds.1 * WEIGHT_RATIO),
+            last_weight: matches!(weights, Weights::Inner).then(|| normal.weights().last().unwrap_or(1.0)),
             tied: Vec::new(),
             curve: normal,
             knots,
@@ -120,7 +122,7 @@ impl<const D: usize> Problem<D> {
             weight,
         };
         let guess = problem.guess(weights)?;
-        problem.tie(&guess, weights, ends)?;
+        problem.tie(&guess, ends)?;
         let guess = problem.with_ends(guess);
         Ok((problem, guess))
     }
@@ -141,21 +143,29 @@ impl<const D: usize> Problem<D> {
     }
 
     /// Ties the control points at both ends.
-    fn tie(&mut self, guess: &[Homogeneous<D>], weights: &Weights, ends: Ends) -> Result<(), ReductionError> {
+    fn tie(&mut self, guess: &[Homogeneous<D>], ends: Ends) -> Result<(), ReductionError> {
         let last = guess.len() - 1;
         let (start, end) = (self.curve.start(), self.curve.end());
-        let through = matches!(weights, Weights::Free).then_some(end);
-        self.tied.push(Tied { index: 0, along: None, through: None, from: start });
-        self.tied.push(Tied { index: last, along: None, through, from: end });
+        for (index, from) in [(0, start), (last, end)] {
+            let through = self.weights_free.then_some(from);
+            self.tied.push(Tied { index, along: None, through, from });
+        }
         if ends == Ends::Tangents {
             if last < 3 {
                 return Err(ReductionError::TooFewForTangents(guess.len()));
             }
             let domain = self.curve.domain();
-            for (index, u, from, sign) in [(1, domain.lower, start, 1.0), (last - 1, domain.upper, end, -1.0)]
+            // A curve leaves its end towards the next control point.
+            let (after, before) = match self.curve.homogeneous_points() {
+                [_, after, .., before, _] => (after.point(), before.point()),
+                // Of a parabola, its only inner point.
+                [_, inner, _] => (inner.point(), inner.point()),
+                _ => (end, start),
+            };
+            for (index, u, from, to) in
+                [(1, domain.lower, start, after), (last - 1, domain.upper, end, before)]
             {
-                let [_, tangent] = self.curve.derivatives(u);
-                let along = direction(tangent, sign).ok_or(ReductionError::NoTangent(u))?;
+                let along = direction(from, to).ok_or(ReductionError::NoTangent(u))?;
                 let through = self.weights_free.then_some(from);
                 self.tied.push(Tied { index, along: Some(along), through, from });
             }
@@ -208,18 +218,31 @@ impl<const D: usize> Problem<D> {
             && self.tied.iter().all(|tied| tied.reach(points).is_none_or(|reach| reach > 0.0))
     }
 
+    /// The control points with the sum that weights are kept to: a common factor means nothing.
+    pub(super) fn scaled(&self, mut points: Vec<Homogeneous<D>>) -> Vec<Homogeneous<D>> {
+        let own: f64 = self.knots.greville().map(|u| self.curve.homogeneous(u, Side::After).weight).sum();
+        let factor = own / points.iter().map(|h| h.weight).sum::<f64>();
+        if self.weights_free && factor.is_finite() && factor > 0.0 {
+            for h in &mut points {
+                *h = Homogeneous { weighted: h.weighted.map(|x| x * factor), weight: h.weight * factor };
+            }
+        }
+        points
+    }
+
     /// The reduced curve where the curve is; its ends to the bit.
     pub(super) fn restored(
         &self,
         points: &[Homogeneous<D>],
         curve: &NurbsCurve<D>,
     ) -> Result<NurbsCurve<D>, ReductionError> {
+        let factor = self.weight / points.first().map_or(1.0, |h| h.weight);
         let back = |h: &Homogeneous<D>| {
             let mut weighted = h.weighted;
             weighted.iter_mut().zip(&self.centre).for_each(|(x, c)| {
-                *x = (*x * self.size + c * h.weight) * self.weight;
+                *x = (*x * self.size + c * h.weight) * factor;
             });
-            Homogeneous { weighted, weight: h.weight * self.weight }
+            Homogeneous { weighted, weight: h.weight * factor }
         };
         let mut points: Vec<Homogeneous<D>> = points.iter().map(back).collect();
         let ends = curve.homogeneous_points();
@@ -262,10 +285,11 @@ pub(super) fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// `sign` times the direction of a vector.
-fn direction<const D: usize>(vector: [f64; D], sign: f64) -> Option<[f64; D]> {
-    let most = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let scaled = vector.map(|x| sign * x / most);
-    let length = norm(&scaled);
-    (most > 0.0 && most.is_finite() && length.is_finite()).then(|| scaled.map(|x| x / length))
+/// The direction from one point to another, for points of a curve of size one.
+fn direction<const D: usize>(from: [f64; D], to: [f64; D]) -> Option<[f64; D]> {
+    let mut along = to;
+    along.iter_mut().zip(&from).for_each(|(x, y)| *x -= y);
+    let length = norm(&along);
+    // Points that differ by roundings have no direction.
+    (length > 1e-12).then(|| along.map(|x| x / length))
 }

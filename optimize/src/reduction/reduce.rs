@@ -122,8 +122,7 @@ pub(super) fn onto<const D: usize>(
     if reduction.criterion == Criterion::MeanSquare || first.deviation.attained <= EXACT * problem.size {
         return Ok(first);
     }
-    let (points, optimum) = least_largest(&problem, fitted);
-    let second = judged(curve, &problem, &points, optimum * problem.size)?;
+    let second = least_largest(curve, &problem, fitted)?;
     // They differ by roundings only where the curve is nearly reducible.
     let better = second.deviation.at_most <= first.deviation.at_most;
     Ok(if better { second } else { Reduced { optimum: second.optimum, ..first } })
@@ -142,7 +141,8 @@ fn fitted<const D: usize>(problem: &Problem<D>, guess: Vec<Homogeneous<D>>) -> V
     guess
 }
 
-fn judged<const D: usize>(
+/// The reduced curve in the place of the given one, with its deviation.
+pub(super) fn judged<const D: usize>(
     curve: &NurbsCurve<D>,
     problem: &Problem<D>,
     points: &[Homogeneous<D>],
