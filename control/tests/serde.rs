@@ -24,6 +24,20 @@ fn a_configuration_comes_back_as_it_was() {
 }
 
 #[test]
+fn coupling_gains_are_a_sequence_and_are_checked() {
+    let coupling = control::CrossCoupling::new([0.5_f32, 0.0, 2.0]).expect("valid");
+    let text = serde_json::to_string(&coupling).expect("writes");
+    assert_eq!(text, "[0.5,0.0,2.0]");
+    assert_eq!(serde_json::from_str::<control::CrossCoupling<3, f32>>(&text).expect("reads"), coupling);
+    for (text, reason) in
+        [("[0.5, -1, 2]", "axis 1"), ("[0.5, 1]", "3 gains"), ("[0.5, 1, 2, 3]", "trailing")]
+    {
+        let error = serde_json::from_str::<control::CrossCoupling<3>>(text).expect_err(text);
+        assert!(error.to_string().contains(reason), "{error}");
+    }
+}
+
+#[test]
 fn what_is_absent_has_its_default_and_what_is_wrong_is_refused() {
     let read = |text: &str| serde_json::from_str::<Pid<f32>>(text);
     let gains = r#""gains": {"kp": 1, "ki": 2, "kd": 0}"#;

@@ -18,13 +18,29 @@ pub struct Section<'a> {
     pub findings: Vec<Finding>,
 }
 
+/// How experiments are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// The seed of every random number, or the first of several.
+    pub seed: u64,
+    /// How many seeds the searches that compare several are run with.
+    pub seeds: u64,
+    /// Whether runs are shortened.
+    pub quick: bool,
+}
+
+impl Default for Setting {
+    /// What a run, a check and the README take that are told nothing: one seed, 1, in full.
+    fn default() -> Self {
+        Self { seed: 1, seeds: 1, quick: false }
+    }
+}
+
 /// Everything a run made.
 #[derive(Clone, Debug)]
 pub struct Results<'a> {
-    /// The seed all experiments were given.
-    pub seed: u64,
-    /// Whether the run was shortened.
-    pub quick: bool,
+    /// How it was run.
+    pub setting: Setting,
     /// In the order of the registry.
     pub sections: Vec<Section<'a>>,
 }
@@ -42,26 +58,23 @@ impl Results<'_> {
 ///
 /// # Errors
 /// What went wrong, in all experiments that failed, each after its id.
-pub fn run<'a>(experiments: &[&'a Experiment], seed: u64, quick: bool) -> Result<Results<'a>> {
+pub fn run<'a>(experiments: &[&'a Experiment], setting: Setting) -> Result<Results<'a>> {
     let mut sections = Vec::with_capacity(experiments.len());
     let mut failures = Vec::new();
     for experiment in experiments {
-        match run_one(experiment, seed, quick) {
+        match run_one(experiment, setting) {
             Ok(section) => sections.push(section),
             Err(error) => failures.push(format!("{}: {error:#}", experiment.id)),
         }
     }
-    if failures.is_empty() {
-        Ok(Results { seed, quick, sections })
-    } else {
-        Err(anyhow!(failures.join("; ")))
-    }
+    if failures.is_empty() { Ok(Results { setting, sections }) } else { Err(anyhow!(failures.join("; "))) }
 }
 
-fn run_one<'a>(experiment: &'a Experiment, seed: u64, quick: bool) -> Result<Section<'a>> {
+fn run_one<'a>(experiment: &'a Experiment, setting: Setting) -> Result<Section<'a>> {
     // Before the run, which may be long.
     let expected = expected::parse(experiment.expected).context("expected.toml")?;
-    let context = Context { seed, quick, progress: Progress::start(experiment.id) };
+    let Setting { seed, seeds, quick } = setting;
+    let context = Context { seed, seeds, quick, progress: Progress::start(experiment.id) };
     let outcome = (experiment.run)(&context);
     context.progress.finish(if outcome.is_ok() { "done" } else { "failed" });
     let outcome = outcome?;

@@ -8,15 +8,12 @@ use anyhow::{Context, Result};
 use clap::{Args, Parser, Subcommand};
 use thiserror::Error;
 
-use crate::bench::{self, Results};
+use crate::bench::{self, Results, Setting};
 use crate::experiment::Experiment;
 use crate::figure::{Theme, Width, to_svg};
 use crate::report::folder::{FolderError, Staging};
 use crate::report::{self, PAGE, terminal};
 use crate::{readme, registry};
-
-/// The seed of a run that names none.
-pub const SEED: u64 = 1;
 
 /// Reproduces published results and shows them beside ours. Without a command, runs everything.
 #[derive(Debug, Parser)]
@@ -49,8 +46,11 @@ struct Run {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of every random number
-    #[arg(long, value_name = "N", default_value_t = SEED)]
+    #[arg(long, value_name = "N", default_value_t = Setting::default().seed)]
     seed: u64,
+    /// Runs the searches that are compared with so many seeds, from that one on; rows are their medians
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    seeds: u64,
     /// Shortens the runs; nothing is compared
     #[arg(long)]
     quick: bool,
@@ -104,7 +104,8 @@ struct Bench<'a> {
 
 impl Bench<'_> {
     fn act(&self, arguments: Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<u8> {
-        let all = Run { ids: Vec::new(), out: None, seed: SEED, quick: false };
+        let Setting { seed, seeds, quick } = Setting::default();
+        let all = Run { ids: Vec::new(), out: None, seed, seeds, quick };
         match arguments.command.unwrap_or(Command::Run(all)) {
             Command::List => {
                 let width = self.experiments.iter().map(|e| e.id.len()).max().unwrap_or(0);
@@ -132,7 +133,7 @@ impl Bench<'_> {
             writeln!(out, "there are no experiments yet")?;
             return Ok(0);
         }
-        let results = bench::run(&selected, run.seed, run.quick)?;
+        let results = bench::run(&selected, Setting { seed: run.seed, seeds: run.seeds, quick: run.quick })?;
         report::write(&results, staging.folder())?;
         let folder = staging.finish()?;
         write!(out, "{}", terminal::table(&results))?;
@@ -146,7 +147,7 @@ impl Bench<'_> {
             writeln!(out, "there are no experiments yet")?;
             return Ok(0);
         }
-        let results = bench::run(&selected, SEED, false)?;
+        let results = bench::run(&selected, Setting::default())?;
         // A verdict does not depend on who reads the table.
         if let Err(error) = write!(out, "{}", terminal::table(&results)).map_err(anyhow::Error::from)
             && !is_broken_pipe(&error)
@@ -180,9 +181,9 @@ impl Bench<'_> {
         let path = self.root.join("README.md");
         let text = std::fs::read_to_string(&path).map_err(|error| Usage(format!("README.md: {error}")))?;
         // Before the runs: a README without its two comments is known at once.
-        let nothing = Results { seed: SEED, quick: false, sections: Vec::new() };
+        let nothing = Results { setting: Setting::default(), sections: Vec::new() };
         readme::rewrite(&text, &nothing).map_err(|error| Usage(error.to_string()))?;
-        let results = bench::run(&selected, SEED, false)?;
+        let results = bench::run(&selected, Setting::default())?;
         let mut files = vec![(path, readme::rewrite(&text, &results)?)];
         for section in &results.sections {
             let Some(id) = section.experiment.readme_figure else { continue };

@@ -47,6 +47,8 @@ impl Source {
 pub struct Context {
     /// Seed of every random number.
     pub seed: u64,
+    /// How many seeds, from that one on, to run a search with where results are compared over several.
+    pub seeds: u64,
     /// Shorten the run; its numbers are not compared with anything.
     pub quick: bool,
     /// Where to say how far the run is.

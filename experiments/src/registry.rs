@@ -7,6 +7,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
     crate::papers::acceleration_curves::EXPERIMENT,
     crate::papers::delay_filter::EXPERIMENT,
     crate::papers::belt_pso::EXPERIMENT,
+    crate::papers::cross_coupling::EXPERIMENT,
 ];
 
 /// The experiments that `ids` name, in the order of `experiments`; all of them when `ids` is empty.

@@ -34,6 +34,7 @@ fn what_cannot_be_met_is_one_line_and_code_2() {
     refused(&root, &["check", "no-such-paper"], "no-such-paper");
     refused(&root, &["run", "--seed", "twelve"], "twelve");
     refused(&root, &["run", "--seed", "-1"], "-1");
+    refused(&root, &["run", "--seeds", "0"], "0");
     refused(&root, &["run", "--fast"], "--fast");
     refused(&root, &["walk"], "walk");
     refused(&root, &["run", "--out", "file/report"], "file/report");

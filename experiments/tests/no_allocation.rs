@@ -5,7 +5,10 @@ use std::hint::black_box;
 
 use allocation_counter::measure;
 use control::{
-    Cascade, CurrentLoop, Dq, FieldOriented, FieldOrientedInput, FieldOrientedState, PiGains, Windings,
+    AxisModel, Cascade, CommandedPath, CrossCoupling, CurrentLoop, DisturbanceInput, DisturbanceObserver,
+    DisturbanceObserverState, Dq, FieldOriented, FieldOrientedInput, FieldOrientedState, PiGains,
+    ReachingLaw, SlidingMode, SlidingModeInput, SlidingModeState, SlidingSurface, SuperTwisting,
+    SuperTwistingState, Windings,
 };
 use plants::nalgebra::{self, SVector, vector};
 use plants::{
@@ -194,4 +197,38 @@ proptest! {
         prop_assert_eq!(short.0, long.0);
         prop_assert!(long.1 > short.1, "the recording is longer");
     }
+}
+
+#[test]
+fn a_tick_of_three_coupled_axes_allocates_nothing() {
+    let model = AxisModel::new(10.0, 1.0, 1.0).expect("valid");
+    let surface = SlidingSurface::terminal(10.0, 1.0, 9, 5).expect("valid");
+    let reaching =
+        ReachingLaw::improved_double_power(20.0, 20.0, 200.0, 1.0 / 3.0, 1.0 / 3.0).expect("valid");
+    let sliding = SlidingMode::new(surface, reaching, model, PERIOD)
+        .and_then(|law| law.with_integral_compensation(20.0))
+        .expect("valid");
+    let twisting = SuperTwisting::for_load_rate(surface, 100.0, model, PERIOD).expect("valid");
+    let observer = DisturbanceObserver::new(model, 200.0, PERIOD).expect("valid");
+    let coupling = CrossCoupling::<3>::uniform(0.01).expect("valid");
+    let mut path = CommandedPath::new();
+    let mut memory =
+        [(SlidingModeState::new(), SuperTwistingState::new(), DisturbanceObserverState::new()); 3];
+    let count = allocations(|k| {
+        let t = 0.01 * f64::from(k);
+        let wanted = [t.sin(), t.cos(), 5.0 * t];
+        // A sensor that fails.
+        let errors = [0.1 * t, if k % 100 == 7 { f64::NAN } else { -0.2 }, 0.0];
+        let coupled = coupling.couple(errors, [0.1, 0.0, -0.1], path.update(wanted).as_ref());
+        for (axis, (sliding_state, twisting_state, observed)) in memory.iter_mut().enumerate() {
+            let reference = Sample { position: wanted[axis], velocity: 1.0, ..Sample::default() };
+            let input = SlidingModeInput::new(&reference, wanted[axis], 1.0)
+                .with_error(coupled.errors[axis], coupled.rates[axis]);
+            let torque = sliding.update(sliding_state, input).output;
+            let other = twisting.update(twisting_state, input).output;
+            let estimate = observer.update(observed, DisturbanceInput { position: torque, realised: other });
+            let _ = black_box(estimate);
+        }
+    });
+    assert_eq!(count, 0);
 }

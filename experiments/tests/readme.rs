@@ -5,12 +5,12 @@
 mod common;
 
 use common::{BROKEN, DEMO, OTHER, bench, folder};
-use experiments::bench::{Results, run};
+use experiments::bench::{Results, Setting, run};
 use experiments::experiment::Experiment;
 use experiments::readme::{BEGIN, END, ReadmeError, check, rewrite};
 
 fn results(experiments: &'static [&'static Experiment]) -> Results<'static> {
-    run(experiments, 1, false).unwrap()
+    run(experiments, Setting::default()).unwrap()
 }
 
 fn both() -> Results<'static> {

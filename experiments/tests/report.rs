@@ -168,7 +168,12 @@ fn odd_figures_are_drawn_too() {
         .limit(3.0, "upper")
         .limit(3.0, "lower");
     let point = Panel::new(Quantity::new("y", "", "")).line("", Role::Ours, vec![(1.0, -2e9)]);
-    let figure = Figure::new("odd", "", quantity()).panel(panel).panel(point);
+    let decades = Panel::new(Quantity::new("error", "e", "m").logarithmic())
+        .line("median", Role::Second, vec![(1.0, 1e-9), (2.0, 3e-13)])
+        .spread("", Role::Second, vec![(1.0, 1e-10), (2.0, 1e-13)], vec![(1.0, 1e-6), (2.0, 1e-12)])
+        .limit(1e-12, "rounding");
+    let figure = Figure::new("odd", "", quantity()).panel(panel).panel(point).panel(decades);
+    assert!(experiments::figure::to_csv(&figure).unwrap().contains("error  greatest [m]"));
     for width in [Width::Wide, Width::Narrow] {
         for theme in [Theme::Light, Theme::Dark] {
             let text = to_svg(&figure, width, theme).unwrap();

@@ -3,12 +3,16 @@
 mod cost;
 mod error;
 mod fitness;
+mod genetic;
+pub mod reduction;
 mod simplex;
 mod swarm;
 
 pub use cost::Cost;
 pub use error::{FitnessError, SimplexError, SwarmError};
 pub use fitness::{Fitness, FitnessWeights};
+pub use genetic::{Breeding, Crossover, GeneticOptions, GeneticSwarm, Mates, Mutation};
+pub use reduction::{ReductionError, reduce_degree};
 pub use simplex::{SimplexResult, simplex};
 pub use swarm::{
     Boundary, InitialVelocity, ParticleSwarm, Progress, Schedule, Stall, Stop, Stream, Swarm, SwarmOptions,

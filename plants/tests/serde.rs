@@ -2,8 +2,8 @@
 #![cfg(feature = "serde")]
 
 use plants::{
-    BeltDrive, Clock, Encoder, LinearMotor, LowPass, Pmsm, PmsmDrive, PmsmWindings, TransferFunction,
-    TwoInertia,
+    BallScrewAxis, BeltDrive, Clock, Encoder, Friction, LinearMotor, LowPass, Pmsm, PmsmDrive, PmsmWindings,
+    TransferFunction, TwoInertia,
 };
 
 #[test]
@@ -46,6 +46,23 @@ fn belts_and_transfer_functions_round_trip() {
     let transfer = belt.motor_from_torque().expect("finite");
     let text = serde_json::to_string(&transfer).expect("writes");
     assert_eq!(serde_json::from_str::<TransferFunction>(&text).expect("reads"), transfer);
+}
+
+#[test]
+fn ball_screws_and_friction_round_trip() {
+    let axis = BallScrewAxis::new(0.3, 2.0, 7.0).expect("valid");
+    let text = serde_json::to_string(&axis).expect("writes");
+    assert_eq!(serde_json::from_str::<BallScrewAxis>(&text).expect("reads"), axis);
+    let friction = Friction::coulomb(0.3)
+        .and_then(|f| f.with_viscous(0.1)?.with_stribeck(0.5, 0.01, 1.5))
+        .expect("valid");
+    for friction in [friction, Friction::none()] {
+        let text = serde_json::to_string(&friction).expect("writes");
+        assert_eq!(serde_json::from_str::<Friction>(&text).expect("reads"), friction);
+    }
+    let weak = r#"{"viscous":0.0,"coulomb":2.0,"breakaway":1.0,"stribeck_speed":1.0,"exponent":2.0}"#;
+    assert!(serde_json::from_str::<Friction>(weak).is_err());
+    assert!(serde_json::from_str::<BallScrewAxis>(r#"{"a":-1.0,"b":1.0,"k":1.0,"inertia":1.0}"#).is_err());
 }
 
 #[test]

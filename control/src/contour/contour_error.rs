@@ -4,7 +4,8 @@ use profiles::Real;
 
 use super::error::ContourFault;
 use super::frame::PathFrame;
-use super::vector::{add_scaled, check, dot, in_range, norm, subtract};
+use super::vector::{add_scaled, check, dot, in_range, norm, out_of_range, subtract};
+use crate::finite::all_finite;
 
 /// What a path was taken for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -75,14 +76,20 @@ impl<const N: usize, F: Real> ContourError<N, F> {
     /// An error that is not finite, or one so large that `e` is not.
     #[inline(always)]
     pub fn new(error: [F; N], path: Option<&PathFrame<N, F>>) -> Result<Self, ContourFault> {
-        check("tracking error", error)?;
+        let contour = Self::unchecked(error, path);
+        if all_finite(contour.vector) { Ok(contour) } else { Err(contour.fault(error)) }
+    }
+
+    /// Not finite where the error is not, or where it is too large.
+    #[inline(always)]
+    pub(super) fn unchecked(error: [F; N], path: Option<&PathFrame<N, F>>) -> Self {
         let Some(path) = path else {
-            return Ok(Self { vector: error, tangent: [F::ZERO; N], basis: ContourBasis::Point });
+            return Self { vector: error, tangent: [F::ZERO; N], basis: ContourBasis::Point };
         };
         let along = dot(path.tangent, error);
         if path.curvature <= F::ZERO {
-            let vector = in_range("contour error", add_scaled(error, -along, path.tangent))?;
-            return Ok(Self { vector, tangent: path.tangent, basis: ContourBasis::Line });
+            let vector = add_scaled(error, -along, path.tangent);
+            return Self { vector, tangent: path.tangent, basis: ContourBasis::Line };
         }
         let inwards = dot(path.normal, error);
         let (x, y) = (path.curvature * along, F::ONE + path.curvature * inwards);
@@ -92,9 +99,18 @@ impl<const N: usize, F: Real> ContourError<N, F> {
         // The way to the axis; on it, the way back to the commanded point.
         let (x, y) = if radius > F::ZERO { (x / radius, y / radius) } else { (F::ZERO, F::ONE) };
         let vector = add_scaled(error, beyond * x - along, path.tangent);
-        let vector = in_range("contour error", add_scaled(vector, beyond * y - inwards, path.normal))?;
-        let tangent = path.tangent.map(|t| y * t);
-        Ok(Self { vector, tangent: add_scaled(tangent, -x, path.normal), basis: ContourBasis::Circle })
+        let vector = add_scaled(vector, beyond * y - inwards, path.normal);
+        let tangent = add_scaled(path.tangent.map(|t| y * t), -x, path.normal);
+        Self { vector, tangent, basis: ContourBasis::Circle }
+    }
+
+    /// Why the vector is not finite.
+    #[cold]
+    pub(super) fn fault(&self, error: [F; N]) -> ContourFault {
+        match check("tracking error", error) {
+            Err(fault) => fault,
+            Ok(()) => out_of_range("contour error", self.vector),
+        }
     }
 
     /// The paper's: from the last two commanded points and the actual position, eq. (14),

@@ -6,6 +6,7 @@ use super::contour_error::ContourError;
 use super::error::{ContourFault, CouplingError};
 use super::frame::PathFrame;
 use super::vector::{check, in_range, subtract, zip};
+use crate::finite::all_finite;
 
 /// Cross-coupling of `N` axes, eq. (15): every axis is given more of the error that matters,
 ///
@@ -90,13 +91,16 @@ impl<const N: usize, F: Real> CrossCoupling<N, F> {
     #[inline(always)]
     #[must_use]
     pub fn couple(&self, errors: [F; N], rates: [F; N], path: Option<&PathFrame<N, F>>) -> Coupled<N, F> {
-        let coupled = ContourError::new(errors, path).and_then(|contour| {
-            check("rate of the error", rates)?;
-            let errors = self.add("coupled error", errors, contour.vector())?;
-            let rates = self.add("rate of the coupled error", rates, contour.across(rates))?;
-            Ok(Coupled { errors, rates, contour: Ok(contour) })
-        });
-        coupled.unwrap_or_else(|fault| Coupled { errors, rates, contour: Err(fault) })
+        let contour = ContourError::unchecked(errors, path);
+        let coupled = self.add(errors, contour.vector());
+        let coupled_rates = self.add(rates, contour.across(rates));
+        // An error or a rate that is not finite makes what is added to it so.
+        if all_finite(contour.vector()) & all_finite(coupled) & all_finite(coupled_rates) {
+            Coupled { errors: coupled, rates: coupled_rates, contour: Ok(contour) }
+        } else {
+            let fault = fault(errors, rates, &contour, coupled, coupled_rates);
+            Coupled { errors, rates, contour: Err(fault) }
+        }
     }
 
     /// The set-points `R + lambda e` with which the errors of the axes are the coupled ones, for laws that take a
@@ -104,16 +108,34 @@ impl<const N: usize, F: Real> CrossCoupling<N, F> {
     #[inline(always)]
     #[must_use]
     pub fn setpoints(&self, references: [F; N], positions: [F; N], path: Option<&PathFrame<N, F>>) -> [F; N] {
-        ContourError::new(subtract(references, positions), path)
-            .and_then(|contour| self.add("coupled set-point", references, contour.vector()))
-            .unwrap_or(references)
+        let contour = ContourError::unchecked(subtract(references, positions), path);
+        let setpoints = self.add(references, contour.vector());
+        if all_finite(contour.vector()) & all_finite(setpoints) { setpoints } else { references }
     }
 
     /// `a + lambda b`.
     #[inline(always)]
-    fn add(&self, quantity: &'static str, a: [F; N], b: [F; N]) -> Result<[F; N], ContourFault> {
+    fn add(&self, a: [F; N], b: [F; N]) -> [F; N] {
         // Minus zero is what changes no number when it is added, not even the sign of a zero.
         let b = zip(self.gains, b, |gain, b| if gain > F::ZERO { gain * b } else { -F::ZERO });
-        in_range(quantity, zip(a, b, |a, b| a + b))
+        zip(a, b, |a, b| a + b)
     }
+}
+
+/// Why axes are not coupled.
+#[cold]
+fn fault<const N: usize, F: Real>(
+    errors: [F; N],
+    rates: [F; N],
+    contour: &ContourError<N, F>,
+    coupled: [F; N],
+    coupled_rates: [F; N],
+) -> ContourFault {
+    if !all_finite(contour.vector()) {
+        return contour.fault(errors);
+    }
+    let coupled = check("rate of the error", rates)
+        .and_then(|()| in_range("coupled error", coupled))
+        .and_then(|_| in_range("rate of the coupled error", coupled_rates));
+    coupled.err().unwrap_or_else(|| contour.fault(errors))
 }

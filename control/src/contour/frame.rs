@@ -3,7 +3,7 @@
 use profiles::Real;
 
 use super::error::ContourFault;
-use super::vector::{add_scaled, check, dot, scaled, subtract, zip};
+use super::vector::{add_scaled, check, dot, is_ordinary, scaled, subtract, unit, zip};
 
 /// A path in `N` axes about one of its points: unit tangent `t`, unit normal `n` and curvature `k`.
 ///
@@ -18,7 +18,7 @@ use super::vector::{add_scaled, check, dot, scaled, subtract, zip};
 /// use control::PathFrame;
 ///
 /// // A circle of 0.5 m, with its point on the x axis, at 2 m/s and with 3 m/s^2 along the path.
-/// let frame = PathFrame::osculating([0.0, 2.0], [-8.0, 3.0])?.ok_or("at rest")?;
+/// let frame = PathFrame::osculating([0.0_f64, 2.0], [-8.0, 3.0])?.ok_or("at rest")?;
 /// assert_eq!((frame.tangent(), frame.normal()), ([0.0, 1.0], [-1.0, 0.0]));
 /// assert!((frame.curvature() - 2.0).abs() < 1e-15); // 8 m/s^2 over 4 m^2/s^2
 /// assert_eq!(PathFrame::between([1.0, 2.0], [1.0, 2.0]), Ok(None));
@@ -41,14 +41,13 @@ impl<const N: usize, F: Real> PathFrame<N, F> {
     /// A coordinate that is not finite.
     #[inline]
     pub fn between(previous: [F; N], current: [F; N]) -> Result<Option<Self>, ContourFault> {
-        check("previous point", previous)?;
-        check("current point", current)?;
-        let mut step = subtract(current, previous);
-        if !step.iter().all(|x| x.is_finite()) {
-            // Points at opposite ends of the range: half of their distance has the same direction.
-            step = zip(current, previous, |b, a| F::HALF * b - F::HALF * a);
+        let step = subtract(current, previous);
+        let square = dot(step, step);
+        if is_ordinary(square) {
+            Ok(Some(Self::straight(unit(step, square))))
+        } else {
+            between(previous, current)
         }
-        Ok(Self::straight(step))
     }
 
     /// The tangent along a velocity, or along any other derivative of the path with respect to its parameter.
@@ -57,8 +56,8 @@ impl<const N: usize, F: Real> PathFrame<N, F> {
     /// A component that is not finite.
     #[inline]
     pub fn along(velocity: [F; N]) -> Result<Option<Self>, ContourFault> {
-        check("velocity", velocity)?;
-        Ok(Self::straight(velocity))
+        let square = dot(velocity, velocity);
+        if is_ordinary(square) { Ok(Some(Self::straight(unit(velocity, square)))) } else { along(velocity) }
     }
 
     /// Tangent and osculating circle from velocity `v` and acceleration `a`:
@@ -74,32 +73,33 @@ impl<const N: usize, F: Real> PathFrame<N, F> {
     /// A component that is not finite, or a curvature beyond the range of `F`.
     #[inline]
     pub fn osculating(velocity: [F; N], acceleration: [F; N]) -> Result<Option<Self>, ContourFault> {
-        check("velocity", velocity)?;
-        check("acceleration", acceleration)?;
-        let Some(speed) = scaled(velocity) else { return Ok(None) };
-        let straight = Self { tangent: speed.unit, normal: [F::ZERO; N], curvature: F::ZERO };
-        let Some(change) = scaled(acceleration) else { return Ok(Some(straight)) };
-        let across = add_scaled(change.unit, -dot(change.unit, speed.unit), speed.unit);
-        let Some(bend) = scaled(across) else { return Ok(Some(straight)) };
-        let share = bend.scale * bend.length;
-        if share <= F::from_f64(ROUNDINGS) * F::EPSILON {
-            return Ok(Some(straight));
+        let (speed, change) = (dot(velocity, velocity), dot(acceleration, acceleration));
+        if !(is_ordinary(speed) & is_ordinary(change)) {
+            return osculating(velocity, acceleration);
         }
-        // Where it is a small share of the acceleration it kept some of the tangent.
-        let normal = add_scaled(bend.unit, -dot(bend.unit, speed.unit), speed.unit);
-        let curvature = (change.scale / speed.scale)
-            * (share * change.length / (speed.length * speed.length))
-            / speed.scale;
-        if curvature.is_finite() {
-            Ok(Some(Self { tangent: speed.unit, normal, curvature }))
-        } else {
-            Err(ContourFault::Range { quantity: "curvature", value: curvature.to_f64() })
-        }
+        let frame = Self::bent(velocity, speed, acceleration, change);
+        if frame.curvature.is_finite() { Ok(Some(frame)) } else { Err(too_bent(frame.curvature)) }
     }
 
     #[inline(always)]
-    fn straight(step: [F; N]) -> Option<Self> {
-        scaled(step).map(|step| Self { tangent: step.unit, normal: [F::ZERO; N], curvature: F::ZERO })
+    fn straight(tangent: [F; N]) -> Self {
+        Self { tangent, normal: [F::ZERO; N], curvature: F::ZERO }
+    }
+
+    /// From velocity, acceleration and their squares, which are ordinary.
+    #[inline(always)]
+    fn bent(velocity: [F; N], speed: F, acceleration: [F; N], change: F) -> Self {
+        let tangent = unit(velocity, speed);
+        let across = add_scaled(acceleration, -dot(acceleration, tangent), tangent);
+        let bend = dot(across, across);
+        let rounding = F::from_f64(ROUNDINGS) * F::EPSILON;
+        if bend <= rounding * rounding * change {
+            return Self::straight(tangent);
+        }
+        let normal = unit(across, bend);
+        // Where it is a small share of the acceleration it kept some of the tangent.
+        let normal = add_scaled(normal, -dot(normal, tangent), tangent);
+        Self { tangent, normal, curvature: bend.sqrt() / speed }
     }
 
     /// Unit tangent `t`.
@@ -120,4 +120,50 @@ impl<const N: usize, F: Real> PathFrame<N, F> {
     pub fn curvature(&self) -> F {
         self.curvature
     }
+}
+
+/// Points whose distance is not ordinary, or that are not finite.
+#[cold]
+fn between<const N: usize, F: Real>(
+    previous: [F; N],
+    current: [F; N],
+) -> Result<Option<PathFrame<N, F>>, ContourFault> {
+    check("previous point", previous)?;
+    check("current point", current)?;
+    // Points at opposite ends of the range: half of their distance has the same direction, and others lose nothing.
+    let far = !subtract(current, previous).iter().all(|x| x.is_finite());
+    let share = if far { F::HALF } else { F::ONE };
+    along(zip(current, previous, |b, a| share * b - share * a))
+}
+
+/// A velocity whose square is not ordinary, or that is not finite.
+#[cold]
+fn along<const N: usize, F: Real>(velocity: [F; N]) -> Result<Option<PathFrame<N, F>>, ContourFault> {
+    check("velocity", velocity)?;
+    Ok(scaled(velocity).map(|(velocity, _)| PathFrame::straight(unit(velocity, dot(velocity, velocity)))))
+}
+
+/// The circle of the same vectors over their sizes is as much flatter.
+#[cold]
+fn osculating<const N: usize, F: Real>(
+    velocity: [F; N],
+    acceleration: [F; N],
+) -> Result<Option<PathFrame<N, F>>, ContourFault> {
+    check("velocity", velocity)?;
+    check("acceleration", acceleration)?;
+    let (Some((velocity, speed)), Some((acceleration, change))) = (scaled(velocity), scaled(acceleration))
+    else {
+        return along(velocity);
+    };
+    let mut frame =
+        PathFrame::bent(velocity, dot(velocity, velocity), acceleration, dot(acceleration, acceleration));
+    if frame.curvature > F::ZERO {
+        frame.curvature = frame.curvature * (change / speed) / speed;
+    }
+    if frame.curvature.is_finite() { Ok(Some(frame)) } else { Err(too_bent(frame.curvature)) }
+}
+
+#[cold]
+fn too_bent<F: Real>(curvature: F) -> ContourFault {
+    ContourFault::Range { quantity: "curvature", value: curvature.to_f64() }
 }

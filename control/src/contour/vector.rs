@@ -31,42 +31,40 @@ pub(super) fn dot<F: Real, const N: usize>(a: [F; N], b: [F; N]) -> F {
 }
 
 /// The largest magnitude of an axis.
-#[inline(always)]
-pub(super) fn largest<F: Real, const N: usize>(a: [F; N]) -> F {
+#[inline]
+fn largest<F: Real, const N: usize>(a: [F; N]) -> F {
     a.iter().fold(F::ZERO, |largest, a| {
         let size = a.abs();
         if size > largest { size } else { largest }
     })
 }
 
-/// A direction and a length in two factors, whose product may have no representation.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Scaled<const N: usize, F> {
-    /// Of length one, to rounding.
-    pub(super) unit: [F; N],
-    /// The largest magnitude of an axis.
-    pub(super) scale: F,
-    /// The length over it, from one to the root of `N`.
-    pub(super) length: F,
+/// Whether a square is far enough from both ends of the range for sums of squares, and for those of a small share of
+/// the vector, to keep their digits; not where it is NaN.
+#[inline(always)]
+pub(super) fn is_ordinary<F: Real>(square: F) -> bool {
+    let small = F::ONE / (F::MAX * F::EPSILON * F::EPSILON * F::EPSILON);
+    (square > small) & (square < F::ONE / small)
 }
 
-/// The direction of a finite vector whatever its size; none of zero.
+/// The direction of a vector whose square is ordinary.
 #[inline(always)]
-pub(super) fn scaled<F: Real, const N: usize>(a: [F; N]) -> Option<Scaled<N, F>> {
+pub(super) fn unit<F: Real, const N: usize>(a: [F; N], square: F) -> [F; N] {
+    let reciprocal = F::ONE / square.sqrt();
+    a.map(|a| a * reciprocal)
+}
+
+/// A finite vector over its largest magnitude, and that; none of zero.
+#[inline]
+pub(super) fn scaled<F: Real, const N: usize>(a: [F; N]) -> Option<([F; N], F)> {
     let scale = largest(a);
-    if scale > F::ZERO {
-        // Divided, not multiplied by a reciprocal, which a subnormal scale does not have.
-        let a = a.map(|a| a / scale);
-        let length = dot(a, a).sqrt();
-        Some(Scaled { unit: a.map(|a| a / length), scale, length })
-    } else {
-        None
-    }
+    // Divided, not multiplied by a reciprocal, which a subnormal scale does not have.
+    if scale > F::ZERO { Some((a.map(|a| a / scale), scale)) } else { None }
 }
 
 /// The Euclidean length of a finite vector, at most the largest finite number.
 pub(super) fn norm<F: Real, const N: usize>(a: [F; N]) -> F {
-    scaled(a).map_or(F::ZERO, |a| (a.scale * a.length).min(F::MAX))
+    scaled(a).map_or(F::ZERO, |(a, scale)| (scale * dot(a, a).sqrt()).min(F::MAX))
 }
 
 /// Names the first axis whose input is not finite.
@@ -94,8 +92,9 @@ pub(super) fn in_range<F: Real, const N: usize>(
     if all_finite(values) { Ok(values) } else { Err(out_of_range(quantity, values)) }
 }
 
+/// Names the first answer that is not finite.
 #[cold]
-fn out_of_range<F: Real, const N: usize>(quantity: &'static str, values: [F; N]) -> ContourFault {
+pub(super) fn out_of_range<F: Real, const N: usize>(quantity: &'static str, values: [F; N]) -> ContourFault {
     let bad = values.iter().find(|value| !value.is_finite());
     ContourFault::Range { quantity, value: bad.map_or(f64::NAN, |value| value.to_f64()) }
 }

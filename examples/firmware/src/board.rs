@@ -95,6 +95,23 @@ impl Registers {
         self.write(32, u32::from(forward));
     }
 
+    /// Whether the gantry runs by super-twisting.
+    pub fn twists(&self) -> bool {
+        self.read(33) != 0
+    }
+
+    /// Measured angles of the gantry, rad.
+    pub fn gantry(&self) -> [f32; 3] {
+        [self.single(34), self.single(35), self.single(36)]
+    }
+
+    /// Commanded torques of the gantry, N m.
+    pub fn set_torques(&mut self, [x, y, z]: [f32; 3]) {
+        self.write(37, x.to_bits());
+        self.write(38, y.to_bits());
+        self.write(39, z.to_bits());
+    }
+
     /// Tells the host that its request could not be served.
     pub fn report_fault(&mut self) {
         self.write(13, 1);

@@ -7,11 +7,13 @@
 #![no_main]
 
 mod board;
+mod gantry;
 mod servo;
 mod stepper;
 
 use board::Registers;
 use control::{AntiWindup, Feedforward, Pid, PidError, PidGains, PidInput, PidState};
+use gantry::Gantry;
 use profiles::{Cosine, Cursor, Limits, Profile, Real, SCurve, Sample, Sectioned, SnapLimited, Trapezoid};
 use servo::Servo;
 
@@ -73,6 +75,13 @@ fn serve(axis: &mut Axis, servo: &mut Servo, registers: &mut Registers) {
     if law == 5 {
         if stepper::step(distance, &limits, registers).is_none() {
             registers.report_fault();
+        }
+        return;
+    }
+    if law == 9 {
+        match Gantry::new(registers.twists()) {
+            Some(mut gantry) => gantry.circle(registers),
+            None => registers.report_fault(),
         }
         return;
     }

@@ -107,6 +107,19 @@ pub struct Marks {
     pub roles: Vec<Role>,
 }
 
+/// What several runs span: the stretch from the least to the greatest, lightly filled.
+#[derive(Clone, Debug)]
+pub struct Spread {
+    /// Names of both ends in the table; they stand in no legend.
+    pub names: [String; 2],
+    /// The line it belongs to, whose colour it has.
+    pub role: Role,
+    /// The least values, x and y.
+    pub least: Vec<(f64, f64)>,
+    /// The greatest, at the same x.
+    pub greatest: Vec<(f64, f64)>,
+}
+
 /// A horizontal dashed line with its name at the right edge.
 #[derive(Clone, Debug)]
 pub struct Limit {
@@ -136,6 +149,8 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Published points.
     pub marks: Vec<Marks>,
+    /// Spreads of several runs.
+    pub spreads: Vec<Spread>,
     /// Limits.
     pub limits: Vec<Limit>,
     /// Shaded stretches.
@@ -146,7 +161,8 @@ impl Panel {
     /// An empty panel.
     #[must_use]
     pub fn new(y: Quantity) -> Self {
-        Self { y, series: Vec::new(), marks: Vec::new(), limits: Vec::new(), bands: Vec::new() }
+        let (series, marks, spreads) = (Vec::new(), Vec::new(), Vec::new());
+        Self { y, series, marks, spreads, limits: Vec::new(), bands: Vec::new() }
     }
 
     /// Adds a line.
@@ -171,6 +187,20 @@ impl Panel {
         self
     }
 
+    /// Fills the stretch between the least and the greatest of several runs, both at the same x, behind the lines.
+    #[must_use]
+    pub fn spread(
+        mut self,
+        name: &str,
+        role: Role,
+        least: Vec<(f64, f64)>,
+        greatest: Vec<(f64, f64)>,
+    ) -> Self {
+        let names = [format!("{name} least"), format!("{name} greatest")];
+        self.spreads.push(Spread { names, role, least, greatest });
+        self
+    }
+
     /// Adds a limit.
     #[must_use]
     pub fn limit(mut self, value: f64, label: &str) -> Self {
@@ -185,10 +215,15 @@ impl Panel {
         self
     }
 
-    /// Names and points of the lines, then of the published points.
+    /// Names and points of the lines, of the published points, then of the ends of spreads.
     fn columns(&self) -> impl Iterator<Item = (&str, &[(f64, f64)])> {
         let lines = self.series.iter().map(|s| (s.name.as_str(), s.points.as_slice()));
-        lines.chain(self.marks.iter().map(|m| (m.name.as_str(), m.points.as_slice())))
+        let marks = self.marks.iter().map(|m| (m.name.as_str(), m.points.as_slice()));
+        let ends = self.spreads.iter().flat_map(|s| {
+            let [least, greatest] = &s.names;
+            [(least.as_str(), s.least.as_slice()), (greatest.as_str(), s.greatest.as_slice())]
+        });
+        lines.chain(marks).chain(ends)
     }
 }
 
@@ -253,6 +288,14 @@ impl Figure {
                 }
                 ensure!(names.insert((y, name)), "figure '{id}': two series '{name}' of '{y}'");
             }
+            let paired = |s: &Spread| {
+                s.least.len() == s.greatest.len()
+                    && s.least.iter().zip(&s.greatest).all(|(a, b)| a.0.to_bits() == b.0.to_bits())
+            };
+            ensure!(
+                panel.spreads.iter().all(paired),
+                "figure '{id}', panel '{y}': a spread whose ends differ in x"
+            );
             let placed = panel.limits.iter().all(|l| panel.y.takes(l.value));
             ensure!(placed, "figure '{id}', panel '{y}': a limit has no place on its axis");
             let ordered =

@@ -5,7 +5,7 @@ use anyhow::{Result, anyhow};
 use kuva::backend::raster::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::plot::{BandPlot, LinePlot, ScatterPlot};
 use kuva::render::annotations::{ReferenceLine, ShadedRegion};
 use kuva::render::color::Color;
 use kuva::render::layout::{Layout, TickFormat};
@@ -177,7 +177,8 @@ fn placed(figure: &Figure) -> Figure {
     for panel in &mut figure.panels {
         let y = panel.y.clone();
         let series = panel.series.iter_mut().map(|s| &mut s.points);
-        let points = series.chain(panel.marks.iter_mut().map(|m| &mut m.points));
+        let spreads = panel.spreads.iter_mut().flat_map(|s| [&mut s.least, &mut s.greatest]);
+        let points = series.chain(panel.marks.iter_mut().map(|m| &mut m.points)).chain(spreads);
         points.flatten().for_each(|point| *point = (x.place(point.0), y.place(point.1)));
         panel.limits.iter_mut().for_each(|limit| limit.value = y.place(limit.value));
         panel.bands.iter_mut().for_each(|b| (b.from, b.to) = (x.place(b.from), x.place(b.to)));
@@ -258,6 +259,13 @@ fn plots(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, theme: Theme)
     let across = geometry.width - geometry.left - geometry.right;
     let scale = (across / (x.to - x.from), geometry.plot / (y.to - y.from));
     let mut plots: Vec<Plot> = Vec::new();
+    for spread in &panel.spreads {
+        let ends =
+            spread.least.iter().zip(&spread.greatest).map(|(least, greatest)| (least.0, least.1, greatest.1));
+        let (x, (least, greatest)): (Vec<_>, (Vec<_>, Vec<_>)) = ends.map(|(x, a, b)| (x, (a, b))).unzip();
+        let band = BandPlot::new(x, least, greatest).with_color(theme.colour(spread.role));
+        plots.push(band.with_opacity(0.2).into());
+    }
     for series in &panel.series {
         // A fiftieth of a pixel cannot be seen, at twice the size either.
         let points = simplify(&series.points, scale, 0.02);

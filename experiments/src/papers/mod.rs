@@ -2,4 +2,5 @@
 
 pub mod acceleration_curves;
 pub mod belt_pso;
+pub mod cross_coupling;
 pub mod delay_filter;

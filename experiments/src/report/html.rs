@@ -82,8 +82,8 @@ pub fn page(results: &Results<'_>) -> Result<String> {
     let page = Page {
         style: include_str!("../../templates/style.css"),
         generated_by: summary::GENERATED_BY,
-        seed: results.seed,
-        quick: results.quick,
+        seed: results.setting.seed,
+        quick: results.setting.quick,
         counts: terminal::counts(results),
         sections,
     };
@@ -110,8 +110,12 @@ fn view(section: &Section<'_>, results: &Results<'_>) -> Result<SectionView> {
             rows: rows(Some(&figure.id)),
         })
     };
-    let mut command = format!("cargo run -p experiments -- run {} --seed {}", experiment.id, results.seed);
-    if results.quick {
+    let mut command =
+        format!("cargo run -p experiments -- run {} --seed {}", experiment.id, results.setting.seed);
+    if results.setting.seeds != 1 {
+        command.push_str(&format!(" --seeds {}", results.setting.seeds));
+    }
+    if results.setting.quick {
         command.push_str(" --quick");
     }
     Ok(SectionView {

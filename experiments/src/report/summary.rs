@@ -28,7 +28,7 @@ const PROGRAM: &str = "stillpoint experiments ";
 /// None that a run can cause: every number in a row is finite.
 pub fn json(results: &Results<'_>) -> Result<String> {
     let rows = results.findings().map(|finding| finding.row.clone()).collect();
-    let summary = Summary { generated_by: GENERATED_BY.to_owned(), seed: results.seed, rows };
+    let summary = Summary { generated_by: GENERATED_BY.to_owned(), seed: results.setting.seed, rows };
     Ok(serde_json::to_string_pretty(&summary)? + "\n")
 }
 

@@ -83,7 +83,7 @@ impl SwarmOptions {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), SwarmError> {
+    pub(crate) fn check(&self) -> Result<(), SwarmError> {
         let number = |quantity, range, fits, value| {
             if fits { Ok(()) } else { Err(SwarmError::Number { quantity, range, value }) }
         };

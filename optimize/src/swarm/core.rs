@@ -34,20 +34,20 @@ use crate::error::SwarmError;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "super::written::WrittenSwarm"))]
 pub struct Swarm {
-    pub(super) options: SwarmOptions,
-    pub(super) bounds: Vec<Interval>,
-    pub(super) seed: u64,
+    pub(crate) options: SwarmOptions,
+    pub(crate) bounds: Vec<Interval>,
+    pub(crate) seed: u64,
     /// Evaluated generations.
-    pub(super) generations: u64,
+    pub(crate) generations: u64,
     /// The next candidates; velocities and best points lie one after the other.
-    pub(super) positions: Vec<Vec<f64>>,
-    pub(super) velocities: Vec<f64>,
-    pub(super) best_positions: Vec<f64>,
-    pub(super) best_costs: Vec<Cost>,
-    pub(super) history: Vec<Progress>,
+    pub(crate) positions: Vec<Vec<f64>>,
+    pub(crate) velocities: Vec<f64>,
+    pub(crate) best_positions: Vec<f64>,
+    pub(crate) best_costs: Vec<Cost>,
+    pub(crate) history: Vec<Progress>,
     /// Iterations since the best got enough better, and what it was then.
-    pub(super) stalled: u64,
-    pub(super) reference: Cost,
+    pub(crate) stalled: u64,
+    pub(crate) reference: Cost,
 }
 
 impl Swarm {
@@ -126,6 +126,14 @@ impl Swarm {
         if costs.len() != particles {
             return Err(SwarmError::Costs { given: costs.len(), particles });
         }
+        let failed = self.take(costs);
+        let (leader, progress) = self.close(failed);
+        self.advance(leader);
+        Ok(progress)
+    }
+
+    /// Takes as many costs as there are candidates into the personal bests; how many failed.
+    pub(crate) fn take(&mut self, costs: &[Cost]) -> usize {
         let mut failed = 0;
         let bests = self.best_positions.chunks_exact_mut(self.bounds.len()).zip(&mut self.best_costs);
         for ((cost, position), (best_position, best_cost)) in costs.iter().zip(&self.positions).zip(bests) {
@@ -137,6 +145,11 @@ impl Swarm {
                 best_position.copy_from_slice(position);
             }
         }
+        failed
+    }
+
+    /// Ends a generation: its leader, and what it brought.
+    pub(crate) fn close(&mut self, failed: usize) -> (usize, Progress) {
         let (leader, best) = self.leader();
         let spread = spread(&self.positions, &self.bounds);
         let progress = Progress { iteration: self.generations, best, spread, failed };
@@ -148,12 +161,11 @@ impl Swarm {
             self.stalled += 1;
         }
         self.generations += 1;
-        self.advance(leader);
-        Ok(progress)
+        (leader, progress)
     }
 
     /// Moves all particles.
-    fn advance(&mut self, best: usize) {
+    pub(crate) fn advance(&mut self, best: usize) {
         let options = &self.options;
         let at = |schedule: super::Schedule| schedule.at(self.generations - 1, options.iterations);
         let factors = Factors {

@@ -14,3 +14,6 @@ pub use core::Swarm;
 pub use progress::Progress;
 pub use solver::ParticleSwarm;
 pub use stream::Stream;
+
+pub(crate) use motion::scatter;
+pub(crate) use solver::{Population, Reported, evaluate, terminate};

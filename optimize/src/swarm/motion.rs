@@ -57,7 +57,7 @@ impl Boundary {
 }
 
 /// Puts a particle anywhere.
-pub(super) fn scatter(
+pub(crate) fn scatter(
     stream: &mut Stream,
     bounds: &[Interval],
     (position, velocity): (&mut [f64], &mut [f64]),

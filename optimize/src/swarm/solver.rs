@@ -86,29 +86,30 @@ impl ParticleSwarm {
         let Some(function) = problem.problem.as_ref() else {
             return Err(argmin_error!(NotInitialized, "`ParticleSwarm`: there is no problem to solve"));
         };
-        let cost = |x: &Vec<f64>| function.cost(x).map_or(Cost::Failed, Into::into);
-        self.costs.resize(self.swarm.ask().len(), Cost::Failed);
-        if self.sequential {
-            self.costs.iter_mut().zip(self.swarm.ask()).for_each(|(slot, x)| *slot = cost(x));
-        } else {
-            self.costs.par_iter_mut().zip(self.swarm.ask()).for_each(|(slot, x)| *slot = cost(x));
-        }
+        evaluate(function, self.swarm.ask(), self.sequential, &mut self.costs);
         self.swarm.tell(&self.costs)?;
         Ok(self.report(problem, state))
     }
 
     /// Writes the best of the swarm into argmin's state.
-    fn report<O>(&self, problem: &mut Problem<O>, mut state: Population) -> Reported {
+    fn report<O>(&self, problem: &mut Problem<O>, state: Population) -> Reported {
         // Not added to: after a resume argmin counts from zero, the swarm does not.
         problem.counts.insert("cost_count", self.swarm.evaluations());
-        let (position, cost) = self.swarm.best();
+        self.swarm.report(state)
+    }
+}
+
+impl Swarm {
+    /// Writes the best into argmin's state, and the last generation into its log.
+    pub(crate) fn report(&self, mut state: Population) -> Reported {
+        let (position, cost) = self.best();
         if cost != Cost::Failed {
             let mut individual = state.take_prev_individual().unwrap_or_default();
             individual.clear();
             individual.extend_from_slice(position);
             state = state.individual(individual).cost(cost.value().unwrap_or(f64::INFINITY));
         }
-        let log = self.swarm.history().last().map(|progress| {
+        let log = self.history().last().map(|progress| {
             let failed = progress.failed as u64;
             kv!("spread" => progress.spread; "failed" => failed;)
         });
@@ -116,9 +117,35 @@ impl ParticleSwarm {
     }
 }
 
+/// The costs of candidates, on the current rayon pool or on this thread.
+pub(crate) fn evaluate<O>(function: &O, candidates: &[Vec<f64>], sequential: bool, costs: &mut Vec<Cost>)
+where
+    O: CostFunction<Param = Vec<f64>> + Sync,
+    O::Output: Into<Cost>,
+{
+    let cost = |x: &Vec<f64>| function.cost(x).map_or(Cost::Failed, Into::into);
+    costs.resize(candidates.len(), Cost::Failed);
+    if sequential {
+        costs.iter_mut().zip(candidates).for_each(|(slot, x)| *slot = cost(x));
+    } else {
+        costs.par_iter_mut().zip(candidates).for_each(|(slot, x)| *slot = cost(x));
+    }
+}
+
+/// Why a search is over, as argmin says it.
+pub(crate) fn terminate(stop: Option<Stop>) -> TerminationStatus {
+    let reason = match stop {
+        None => return TerminationStatus::NotTerminated,
+        Some(Stop::Target) => TerminationReason::TargetCostReached,
+        Some(Stop::Iterations) => TerminationReason::MaxItersReached,
+        Some(Stop::Stalled) => TerminationReason::SolverConverged,
+    };
+    TerminationStatus::Terminated(reason)
+}
+
 /// argmin's state; its population is the swarm's own and stays empty.
-type Population = PopulationState<Vec<f64>, f64>;
-type Reported = (Population, Option<KV>);
+pub(crate) type Population = PopulationState<Vec<f64>, f64>;
+pub(crate) type Reported = (Population, Option<KV>);
 
 impl<O> Solver<O, Population> for ParticleSwarm
 where
@@ -143,12 +170,6 @@ where
     }
 
     fn terminate(&mut self, _state: &Population) -> TerminationStatus {
-        let reason = match self.swarm.stop() {
-            None => return TerminationStatus::NotTerminated,
-            Some(Stop::Target) => TerminationReason::TargetCostReached,
-            Some(Stop::Iterations) => TerminationReason::MaxItersReached,
-            Some(Stop::Stalled) => TerminationReason::SolverConverged,
-        };
-        TerminationStatus::Terminated(reason)
+        terminate(self.swarm.stop())
     }
 }

@@ -39,14 +39,14 @@ impl Stream {
     /// What the streams of all particles of an iteration share.
     #[must_use]
     #[inline]
-    pub(super) const fn key(seed: u64, iteration: u64) -> u64 {
+    pub(crate) const fn key(seed: u64, iteration: u64) -> u64 {
         mix(mix(seed.wrapping_add(STEP)).wrapping_add(iteration).wrapping_add(STEP))
     }
 
     /// The stream of a particle, given what its iteration shares.
     #[must_use]
     #[inline]
-    pub(super) const fn keyed(key: u64, particle: u64) -> Self {
+    pub(crate) const fn keyed(key: u64, particle: u64) -> Self {
         Self { state: mix(key.wrapping_add(particle).wrapping_add(STEP)) }
     }
 
