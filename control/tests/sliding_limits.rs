@@ -1,4 +1,6 @@
 //! Limits, changes of configuration, several axes.
+#![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
+#![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 
 mod axis;
 

@@ -1,8 +1,9 @@
 //! The surface falls as its law says, and `s^2` never grows, on the axis that the model describes.
+#![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 
 use control::{
-    AxisModel, ReachingLaw, SlidingMode, SlidingModeInput, SlidingModeState, SlidingSurface, Status,
-    Switching,
+    AxisModel, ReachingLaw, Sampling, SlidingMode, SlidingModeInput, SlidingModeState, SlidingSurface,
+    Status, Switching,
 };
 use profiles::Sample;
 use proptest::prelude::*;
@@ -207,5 +208,40 @@ fn the_law_of_the_paper_comes_out() {
             + 20.0 * integral;
         // The largest term is some hundred, and there are nine.
         assert!((output.output - by_hand).abs() < 1e-11, "{} {by_hand}", output.output);
+    }
+}
+
+proptest! {
+    #[test]
+    fn single_precision_says_the_same(
+        e in -1.0..1.0_f64, rate in -5.0..5.0_f64, x in -1.0..1.0_f64, v in -5.0..5.0_f64, matched: bool,
+    ) {
+        macro_rules! output {
+            ($real:ident) => {{
+                let third = 1.0 / 3.0;
+                let surface = SlidingSurface::<$real>::terminal(10.0, 1.0, 9, 5).expect("valid");
+                let law = ReachingLaw::improved_double_power(20.0, 20.0, 200.0, third, third).expect("valid");
+                let model = AxisModel::new(10.0, 1.0, 1.0).expect("valid");
+                let sampling = if matched { Sampling::Matched } else { Sampling::Explicit };
+                let controller = SlidingMode::new(surface, law, model, 1e-3)
+                    .and_then(|c| c.with_sampling(sampling))
+                    .expect("valid");
+                let input = SlidingModeInput {
+                    position: x as $real,
+                    velocity: v as $real,
+                    ..SlidingModeInput::default()
+                };
+                let input = input.with_error(e as $real, rate as $real);
+                let output = controller.update(&mut SlidingModeState::new(), input);
+                (f64::from(output.output), f64::from(output.surface))
+            }};
+        }
+        let (single, double) = (output!(f32), output!(f64));
+        // s up to 16 is a sum of three; the law, up to 2100 + 3200, steepens what is lost of it to a cube root.
+        let lost = 16.0 * f64::from(f32::EPSILON);
+        prop_assert!((single.1 - double.1).abs() < lost, "{single:?} {double:?}");
+        let steepened = 20.0 * (2.0 * lost.cbrt()).min(lost * double.1.abs().powf(-2.0 / 3.0));
+        let scale = 5300.0 * 4.0 * f64::from(f32::EPSILON);
+        prop_assert!((single.0 - double.0).abs() < scale + steepened + 300.0 * lost, "{single:?} {double:?}");
     }
 }

@@ -23,13 +23,14 @@ use crate::sliding::AxisModel;
 /// ```
 /// use control::{AxisModel, DisturbanceInput, DisturbanceObserver, DisturbanceObserverState};
 ///
-/// let observer = DisturbanceObserver::new(AxisModel::new(10.0, 0.0, 2.0)?, 400.0, 1e-3)?; // rad/s, s
-/// let mut axis = DisturbanceObserverState::new();
+/// let axis: AxisModel = AxisModel::new(10.0, 0.0, 2.0)?;
+/// let observer = DisturbanceObserver::new(axis, 400.0, 1e-3)?; // rad/s, s
+/// let mut state = DisturbanceObserverState::new();
 /// // An axis that stands still under an input of 3 is held by a load of -6.
 /// for _ in 0..100 {
-///     let _ = observer.update(&mut axis, DisturbanceInput { position: 0.25, realised: 3.0 });
+///     let _ = observer.update(&mut state, DisturbanceInput { position: 0.25, realised: 3.0 });
 /// }
-/// let estimate = axis.estimate();
+/// let estimate = state.estimate();
 /// assert!((estimate.load + 6.0).abs() < 1e-9 && estimate.velocity.abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -7,7 +7,8 @@ use profiles::Real;
 /// A law that switches, sampled as it stands, overshoots its surface at every tick and chatters. Both other forms come to
 /// rest on it. Towards `s = 0` their gain tends to that of a deadbeat controller, `1/h` on the surface (`2/h` for
 /// [`SuperTwisting`](crate::SuperTwisting)): they want an actuator that acts within the period, and a velocity whose noise
-/// this gain does not make worse than the chatter was.
+/// this gain does not make worse than the chatter was. A surface as steep as `1/h` (`1/(2 h)` for super-twisting) makes them
+/// swing; a terminal surface keeps off by its guard, see [`SlidingSurface::terminal`](crate::SlidingSurface::terminal).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
