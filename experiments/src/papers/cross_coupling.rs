@@ -205,7 +205,8 @@ fn coupling(quick: bool, outcome: &mut Outcome) -> Result<()> {
     let gains: &[f64] = if quick { &[0.0, 1.0] } else { &[0.0, 0.01, 0.03, 0.1, 0.3, 0.6, 1.0] };
     let rows = [0.0, 0.01, 0.1, 1.0];
     let runs = |law, loaded, start| -> Result<Vec<(f64, Course<3>)>> {
-        let run = |&coupling: &f64| Ok((coupling, Case { loaded, coupling, ..Case::<3>::new(law, start) }.run()?));
+        let run =
+            |&coupling: &f64| Ok((coupling, Case { loaded, coupling, ..Case::<3>::new(law, start) }.run()?));
         gains.par_iter().map(run).collect()
     };
     let gain = || Quantity::new("gain of the coupling", "λ", "");

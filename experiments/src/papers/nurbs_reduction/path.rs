@@ -23,7 +23,7 @@ pub(super) const FEED: f64 = 0.25;
 /// Velocity, acceleration and jerk of every axis, m/s, m/s^2 and m/s^3.
 pub(super) const AXIS: [f64; 3] = [0.25, 3.0, 150.0];
 /// Chord error, m.
-pub(super) const CHORD: f64 = 1e-6;
+pub(super) const CHORD: f64 = 0.2e-6;
 /// Period of the controller, s.
 const PERIOD: f64 = 1e-3;
 /// A pulse, m.
