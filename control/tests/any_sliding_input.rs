@@ -1,6 +1,5 @@
 //! Whatever comes into a sliding mode controller, what goes out is finite and within the limits, and a bad sample leaves no
 //! trace.
-#![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 
 use control::{
     AxisModel, DisturbanceInput, DisturbanceObserver, DisturbanceObserverState, ReachingLaw, Sampling,
