@@ -6,7 +6,7 @@ mod common;
 use allocation_counter::measure;
 use argmin::core::{PopulationState, Problem, Solver, State};
 use common::RASTRIGIN;
-use optimize::{Cost, ParticleSwarm, Swarm, SwarmOptions};
+use optimize::{Breeding, Cost, GeneticOptions, ParticleSwarm, Swarm, SwarmOptions};
 
 #[test]
 fn by_hand_nothing_but_history() {
@@ -19,6 +19,21 @@ fn by_hand_nothing_but_history() {
     let counts = measure(|| (0..201).for_each(|_| generation(&mut swarm)));
     // A vector that doubles from 4 to 256 entries.
     assert!(counts.count_total <= 7, "{}", counts.count_total);
+}
+
+#[test]
+fn breeding_allocates_nothing_more() {
+    for options in [GeneticOptions::new(50, 200), GeneticOptions::genetic(50, 200)] {
+        let mut search = Breeding::new(&RASTRIGIN.bounds(10), options, 1).expect("valid");
+        let mut costs = vec![Cost::Failed; 50];
+        let mut turn = |search: &mut Breeding| {
+            let candidates = search.ask().len();
+            costs.iter_mut().zip(search.ask()).for_each(|(cost, x)| *cost = (RASTRIGIN.value)(x).into());
+            search.tell(&costs[..candidates]).expect("as many as asked for");
+        };
+        let counts = measure(|| (0..201).for_each(|_| turn(&mut search)));
+        assert!(counts.count_total <= 7, "{}", counts.count_total);
+    }
 }
 
 #[test]

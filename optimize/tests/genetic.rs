@@ -214,21 +214,24 @@ fn a_pool_helps_a_swarm_and_flight_helps_a_pool() {
             let search = Breeding::new(&RASTRIGIN.bounds(30), options, seed).expect("valid");
             to_the_end(search, RASTRIGIN.value).best().1.value().expect("a cost")
         };
-        median((0..5).map(run).collect())
+        median((0..3).map(run).collect())
     };
-    // As many evaluations: 400 and 200 in 1001 generations, 400 in 1501, 400 and then 200 in 3001.
+    // As many evaluations: 400 and 200 in 1001 generations, 400 in 1502.
     let swarm = SwarmOptions { iterations: 1501, ..hybrid.swarm };
     let (both, swarm) = (best(hybrid), best(GeneticOptions { swarm, pool: 0.0, ..hybrid }));
     println!("Rastrigin in 30 dimensions: hybrid {both}, swarm {swarm}");
-    assert!(both < 17.0 && both < swarm, "{both} {swarm}");
-    // On a smooth valley the genetic part alone is slow.
+    assert!(both < 1e-6 && swarm > 10.0, "{both} {swarm}");
+    // In a smooth valley the genetic part alone is slow: again as many evaluations.
     let valley = |options: GeneticOptions| {
-        let search = Breeding::new(&ROSENBROCK.bounds(5), options, 3).expect("valid");
-        to_the_end(search, ROSENBROCK.value).best().1.value().expect("a cost")
+        let run = |seed| {
+            let search = Breeding::new(&ROSENBROCK.bounds(5), options, seed).expect("valid");
+            to_the_end(search, ROSENBROCK.value).best().1.value().expect("a cost")
+        };
+        median((0..9).map(run).collect())
     };
     let (both, genetic) = (valley(GeneticOptions::new(60, 400)), valley(GeneticOptions::genetic(60, 1200)));
     println!("Rosenbrock in 5 dimensions: hybrid {both:e}, genetic {genetic:e}");
-    assert!(both < 0.1 * genetic, "{both} {genetic}");
+    assert!(both < 0.5 * genetic, "{both} {genetic}");
 }
 
 #[test]

@@ -10,8 +10,7 @@ use optimize::reduction::{Criterion, Ends, Reduced, Reduction, ReductionError, T
 use profiles::nurbs::{Knots, NurbsCurve, NurbsError, Side};
 use proptest::prelude::*;
 
-/// Diagonals of the boxes of the control points.
-const QUINTIC_SIZE: f64 = 13.416_407_864_998_74;
+/// Diagonal of the box of its control points.
 const CUBIC_SIZE: f64 = 107.703_296_142_690_08;
 
 fn reduced<const D: usize>(curve: &NurbsCurve<D>, degree: usize, weights: Weights) -> Reduced<D> {
@@ -328,8 +327,6 @@ fn what_cannot_be_is_named() {
     assert_eq!(error(unknown), ReductionError::WeightsWithoutKnots(4));
     let tangents = Reduction { ends: Ends::Tangents, ..Reduction::to(2) };
     assert_eq!(error(tangents), ReductionError::TooFewForTangents(3));
-    // Free weights stay in their bounds however far the given knots are from those of the curve.
-    assert_eq!(curve.knots().domain(), Knots::bezier(3, 0.0, 1.0).expect("valid").domain());
 }
 
 #[test]
@@ -352,7 +349,6 @@ fn the_unit_and_the_origin_mean_nothing() {
         let ratio = back.deviation.at_most / plain.deviation.at_most;
         assert!((ratio - 1.0).abs() < 2e-3, "{weights:?} {ratio}");
     }
-    assert!(QUINTIC_SIZE > 13.0);
 }
 
 /// Curves of a degree, with inner knots of any multiplicity it allows.

@@ -9,7 +9,10 @@ use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{Error, Executor, State};
 use argmin::core::{KV, PopulationState};
 use common::{Function, RASTRIGIN};
-use optimize::{Boundary, FitnessWeights, ParticleSwarm, Schedule, Stall, Swarm, SwarmOptions, Topology};
+use optimize::{
+    Boundary, Breeding, Crossover, FitnessWeights, GeneticOptions, GeneticSwarm, Mutation, ParticleSwarm,
+    Schedule, Stall, Swarm, SwarmOptions, Topology,
+};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -118,4 +121,57 @@ fn options_read_as_written() {
     let text = serde_json::to_string(&weights).expect("writes");
     assert_eq!(serde_json::from_str::<FitnessWeights>(&text).expect("reads"), weights);
     assert!(serde_json::from_str::<FitnessWeights>(&text.replace("2.0", "-2.0")).is_err());
+}
+
+#[test]
+fn breeding_goes_on_after_being_written_between_particles_and_children() {
+    let search = || Breeding::new(&RASTRIGIN.bounds(5), GeneticOptions::new(24, 60), 11).expect("valid");
+    let tell = |search: &mut Breeding| {
+        let costs: Vec<_> = search.ask().iter().map(|x| (RASTRIGIN.value)(x).into()).collect();
+        search.tell(&costs).expect("as many as asked for");
+    };
+    let (mut straight, mut written) = (search(), search());
+    for turn in 0..40 {
+        tell(&mut straight);
+        tell(&mut written);
+        if turn % 7 == 0 {
+            let bytes = postcard::to_stdvec(&GeneticSwarm::from(written)).expect("writes");
+            written = postcard::from_bytes::<GeneticSwarm>(&bytes).expect("reads").search().clone();
+        }
+        assert_eq!(written, straight);
+    }
+    tell(&mut straight);
+    let mut value = serde_json::to_value(&straight).expect("writes");
+    let read = |value: &serde_json::Value| serde_json::from_value::<Breeding>(value.clone());
+    assert_eq!(read(&value).expect("reads"), straight);
+    for (path, bad) in [
+        ("/order/3", serde_json::json!(77)),
+        ("/order", serde_json::json!([0])),
+        ("/children", serde_json::json!([])),
+        ("/children/3", serde_json::json!([0.0])),
+        ("/children/3/1", serde_json::json!(77.0)),
+        ("/options/pool", serde_json::json!(0.25)),
+        ("/options/mutation_rate", serde_json::json!(-1.0)),
+        ("/options/swarm/particles", serde_json::json!(23)),
+        ("/swarm/positions/3/1", serde_json::json!(77.0)),
+        ("/failed", serde_json::json!(1000)),
+    ] {
+        let place = value.pointer_mut(path).expect("a part");
+        let good = std::mem::replace(place, bad);
+        assert!(read(&value).is_err(), "{path}");
+        *value.pointer_mut(path).expect("a part") = good;
+    }
+}
+
+#[test]
+fn genetic_options_read_as_written() {
+    let plain = GeneticOptions::new(50, 30);
+    let (crossover, mutation) = (Crossover::Blend { beyond: 0.25 }, Mutation::Nearby { reach: 0.125 });
+    for options in [plain, GeneticOptions { crossover, mutation, ..GeneticOptions::genetic(7, 8) }] {
+        let bytes = postcard::to_stdvec(&options).expect("writes");
+        assert_eq!(postcard::from_bytes::<GeneticOptions>(&bytes).expect("reads"), options);
+    }
+    let partly = serde_json::from_str::<GeneticOptions>(r#"{"pool": 0.25}"#).expect("reads");
+    assert_eq!(partly, GeneticOptions { pool: 0.25, ..GeneticOptions::new(400, 1000) });
+    assert!(serde_json::from_str::<GeneticOptions>(r#"{"pools": 0.25}"#).is_err());
 }
