@@ -137,6 +137,8 @@ struct Part<const D: usize> {
 impl<const D: usize> Part<D> {
     fn new(piece: Piece<D>, halvings: u32) -> Self {
         let (above, below) = (piece.squared_distance(), piece.weight.squared());
+        let missing = above.degree().saturating_sub(below.degree());
+        let below = below.raised(missing);
         let quotients = || above.coefficients().iter().zip(below.coefficients()).map(|(s, w)| s / w);
         let least = quotients().fold(f64::INFINITY, f64::min).max(0.0);
         let rounding = ROUNDING * piece.farthest();

@@ -8,6 +8,7 @@ mod bounds;
 mod closest;
 mod conics;
 mod curve;
+mod deviation;
 mod error;
 mod evaluate;
 mod feed;
@@ -16,6 +17,7 @@ mod geometry;
 mod homogeneous;
 mod insert;
 mod knots;
+mod motion;
 mod piece;
 mod raise;
 mod reach;
@@ -27,6 +29,7 @@ pub use basis::Basis;
 pub use bezier::BezierSegment;
 pub use closest::Nearest;
 pub use curve::NurbsCurve;
+pub use deviation::Deviation;
 pub use error::NurbsError;
 pub use feed::{
     AxisMotion, CoordinateList, FeedError, FeedInterpolator, FeedLaw, FeedLimits, FeedProfile, FeedReport,

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use profiles::nurbs::{ArcLength, Knots, NurbsCurve, NurbsError, Side};
 use proptest::prelude::*;
 
-use crate::curves::{CASES, a_curve, at, distance, norm, size};
+use crate::curves::{CASES, a_curve, at, distance, norm, size, unevenness};
 
 /// The table's length is the true one within its own bound, which is rounding.
 fn is<const D: usize>(curve: &NurbsCurve<D>, length: f64) {
@@ -91,7 +91,8 @@ proptest! {
         let fine = curve.refined(&(1..128).map(|k| at(&curve, f64::from(k) / 128.0)).collect::<Vec<_>>())?;
         // As many roundings as there are points.
         let rounding = 8.0 * 150.0 * f64::EPSILON * size(&curve);
-        prop_assert!(fine.polygon_length() >= length - error - rounding);
+        let polygon = fine.polygon_length();
+        prop_assert!(polygon >= length - error - rounding, "{} below {} - {} - {}", polygon, length, error, rounding);
         let chords: f64 = (0..4096)
             .map(|k| {
                 let place = |k: u32| curve.point(at(&curve, f64::from(k) / 4096.0));
@@ -128,7 +129,8 @@ proptest! {
         // And by the part of the curve, which has another table, and ends up to 16 roundings away, in a knot.
         if u - domain.lower > 1e-6 {
             let (part, bound) = curve.part(domain.lower, u)?.length(1e-12 * size(curve))?;
-            let total = bound + path.error_bound() + 3.0 * allowed;
+            let cut = 256.0 * f64::EPSILON * size(curve) * unevenness(curve);
+            let total = bound + path.error_bound() + 3.0 * allowed + cut;
             prop_assert!((part - s).abs() <= total, "{} instead of {}, allowed {}", part, s, total);
         }
     }

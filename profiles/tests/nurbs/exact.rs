@@ -53,6 +53,28 @@ proptest! {
         }
     }
 
+    /// The certain bound between two curves of different degree and knots: never below a dense sample's.
+    #[test]
+    fn deviation_is_never_below_samples(curve in a_curve::<3>(), times in 0..3_usize, shift in -1.0..1.0) {
+        let raised = curve.raised(times)?;
+        let same = curve.deviation(&raised)?;
+        prop_assert!(same.bound <= 1e-13 * size(&curve), "{}", same.bound / size(&curve));
+        // Another control point in the middle.
+        let (knots, mut points) = (raised.knots().clone(), raised.homogeneous_points().to_vec());
+        let middle = points.len() / 2;
+        points[middle].weighted[0] += shift * size(&curve);
+        let other = NurbsCurve::from_homogeneous(knots, points)?;
+        let deviation = curve.deviation(&other)?;
+        let apart = |u: f64| distance(&curve.point(u), &other.point(u));
+        let most = (0..=1000).map(|k| apart(at(&curve, f64::from(k) / 1000.0))).fold(0.0, f64::max);
+        let rounding = 1e-13 * size(&curve);
+        prop_assert!(deviation.bound >= most - rounding, "{:?} below {}", deviation, most);
+        prop_assert!(deviation.bound <= deviation.reached * 1.0011 + rounding, "{:?}", deviation);
+        prop_assert!((apart(deviation.parameter) - deviation.reached).abs() <= rounding);
+        let back = other.deviation(&curve)?;
+        prop_assert!((back.bound - deviation.bound).abs() <= 2e-3 * deviation.bound + rounding);
+    }
+
     #[test]
     fn raising_leaves_the_curve(curve in a_curve::<3>(), times in 1..4_usize) {
         let raised = curve.raised(times)?;
