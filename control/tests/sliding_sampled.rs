@@ -174,7 +174,7 @@ fn the_worst_load_below_the_tolerated_rate_is_balanced() {
 
 /// Largest error in the last second, and the mean change of the input from tick to tick, of 3 s after a start one metre off
 /// with a load of 10 from the first second on.
-fn run(mut control: impl FnMut(&Axis, &Sample) -> f64, h: f64) -> (f64, f64) {
+fn run(mut control: impl FnMut(&Axis, &Sample) -> f64, h: f64, load: f64) -> (f64, f64) {
     let mut axis = Axis { position: 1.0, velocity: 0.0 };
     let (mut error, mut chatter, mut last) = (0.0_f64, 0.0, 0.0);
     let ticks = (3.0 / h) as u32;
@@ -187,17 +187,17 @@ fn run(mut control: impl FnMut(&Axis, &Sample) -> f64, h: f64) -> (f64, f64) {
             chatter += (input - last).abs() * h;
         }
         last = input;
-        axis.advance(&model(), input, if t > 1.0 { 10.0 } else { 0.0 }, h);
+        axis.advance(&model(), input, if t > 1.0 { load } else { 0.0 }, h);
     }
     (error, chatter)
 }
 
-fn sliding(law: ReachingLaw, sampling: Sampling, h: f64) -> (f64, f64) {
+fn sliding(law: ReachingLaw, sampling: Sampling, h: f64, load: f64) -> (f64, f64) {
     let surface = SlidingSurface::terminal(10.0, 1.0, 9, 5).expect("valid");
     let controller =
         SlidingMode::new(surface, law, model(), h).and_then(|c| c.with_sampling(sampling)).expect("valid");
     let mut state = SlidingModeState::new();
-    run(|axis, reference| controller.update(&mut state, axis.input(reference)).output, h)
+    run(|axis, reference| controller.update(&mut state, axis.input(reference)).output, h, load)
 }
 
 #[test]
@@ -205,17 +205,17 @@ fn the_papers_law_is_stable_at_any_period_when_matched() {
     let law = ReachingLaw::improved_double_power(20.0, 20.0, 200.0, 1.0 / 3.0, 1.0 / 3.0).expect("valid");
     for h in [0.001, 0.003, 0.01, 0.02] {
         // As printed it runs away at 7 ms and more.
-        let (explicit, _) = sliding(law, Sampling::Explicit, h);
+        let (explicit, _) = sliding(law, Sampling::Explicit, h, 10.0);
         assert_eq!(explicit > 1e100, h > 0.0065, "{explicit}");
         // The load leaves 3e-3 as printed, and what it moves the surface by within a period.
-        let (error, chatter) = sliding(law, Sampling::Matched, h);
+        let (error, chatter) = sliding(law, Sampling::Matched, h, 10.0);
         assert!(error < 4e-3 + h && chatter < 6.0 * h, "{h}: {error} {chatter}");
     }
 }
 
 /// PD with feedforward and an observer: a linear surface, a linear law, velocity from the encoder's position, the load
 /// subtracted.
-fn observed(h: f64) -> (f64, f64) {
+fn observed(h: f64, load: f64) -> (f64, f64) {
     let law = ReachingLaw::exponential(60.0, 0.0).expect("valid");
     let surface = SlidingSurface::linear(20.0).expect("valid");
     let controller = SlidingMode::new(surface, law, model(), h).expect("valid");
@@ -232,16 +232,17 @@ fn observed(h: f64) -> (f64, f64) {
             controller.update(&mut state, input).output
         },
         h,
+        load,
     )
 }
 
 /// Super-twisting on the terminal surface, for loads that change by up to 400 m/s^3.
-fn twisting(sampling: Sampling, h: f64) -> (f64, f64) {
+fn twisting(sampling: Sampling, h: f64, load: f64) -> (f64, f64) {
     let surface = SlidingSurface::terminal(10.0, 1.0, 9, 5).expect("valid");
     let controller =
         SuperTwisting::for_load_rate(surface, 400.0, model(), h).expect("valid").with_sampling(sampling);
     let mut state = SuperTwistingState::new();
-    run(|axis, reference| controller.update(&mut state, axis.input(reference)).output, h)
+    run(|axis, reference| controller.update(&mut state, axis.input(reference)).output, h, load)
 }
 
 #[test]
@@ -249,19 +250,21 @@ fn the_table_of_the_readme() {
     let h = 1e-3;
     let smc = ReachingLaw::exponential(200.0, 33.0).expect("valid");
     let dsmc = ReachingLaw::improved_double_power(20.0, 20.0, 200.0, 1.0 / 3.0, 1.0 / 3.0).expect("valid");
-    for (measured, error, chatter) in [
-        (sliding(smc, Sampling::Explicit, h), 1.6e-4, 57.0),
-        (sliding(smc, Sampling::Implicit, h), 1.8e-4, 0.0057),
-        (sliding(smc, Sampling::Matched, h), 3.0e-4, 0.0057),
-        (sliding(dsmc, Sampling::Explicit, h), 2.7e-3, 0.0057),
-        (sliding(dsmc, Sampling::Matched, h), 3.6e-3, 0.0057),
-        (twisting(Sampling::Explicit, h), 5.9e-7, 0.46),
-        (twisting(Sampling::Implicit, h), 2.9e-9, 0.0057),
-        (twisting(Sampling::Matched, h), 2.9e-9, 0.0057),
-        (observed(h), 3.8e-6, 0.0057),
+    let both = |run: &dyn Fn(f64) -> (f64, f64)| (run(10.0), run(0.0).1);
+    for ((loaded, unloaded), error, chatter, chatter_without) in [
+        (both(&|load| sliding(smc, Sampling::Explicit, h, load)), 1.6e-4, 57.0, 85.0),
+        (both(&|load| sliding(smc, Sampling::Implicit, h, load)), 1.8e-4, 0.0057, 0.0057),
+        (both(&|load| sliding(smc, Sampling::Matched, h, load)), 3.0e-4, 0.0057, 0.0057),
+        (both(&|load| sliding(dsmc, Sampling::Explicit, h, load)), 2.7e-3, 0.0057, 4.9),
+        (both(&|load| sliding(dsmc, Sampling::Matched, h, load)), 3.6e-3, 0.0057, 0.0057),
+        (both(&|load| twisting(Sampling::Explicit, h, load)), 5.9e-7, 0.46, 0.46),
+        (both(&|load| twisting(Sampling::Implicit, h, load)), 2.9e-9, 0.0057, 0.0057),
+        (both(&|load| twisting(Sampling::Matched, h, load)), 2.9e-9, 0.0057, 0.0057),
+        (both(&|load| observed(h, load)), 3.8e-6, 0.0057, 0.0057),
     ] {
         // The printed digits; the plant is stepped to 1e-12.
-        assert!((measured.0 / error - 1.0).abs() < 0.05, "{measured:?} {error}");
-        assert!((measured.1 / chatter - 1.0).abs() < 0.02, "{measured:?} {chatter}");
+        assert!((loaded.0 / error - 1.0).abs() < 0.05, "{loaded:?} {error}");
+        assert!((loaded.1 / chatter - 1.0).abs() < 0.02, "{loaded:?} {chatter}");
+        assert!((unloaded / chatter_without - 1.0).abs() < 0.02, "{unloaded} {chatter_without}");
     }
 }

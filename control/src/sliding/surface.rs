@@ -83,6 +83,8 @@ impl<F: Real> SlidingSurface<F> {
     /// on a slope above `1/h`, with super-twisting above `1/(2 h)`, and decays fastest on one of about `1/(4 h)`. With
     /// `beta = 1`, `q/p = 5/9` and 1 ms this is 4.0e-6.
     ///
+    /// With exponents so close that this is below the smallest number, the controller asks for a guard.
+    ///
     /// With `2 q > p` the term vanishes towards `e = 0` along `s = 0`, so that the guard matters only off the surface.
     ///
     /// # Errors
@@ -174,6 +176,8 @@ impl<F: Real> SlidingSurface<F> {
                 let quarter = F::from_u32(4) * period;
                 let guard = guard.unwrap_or_else(|| (beta * quarter).powf(-F::ONE / excess));
                 finite("guard of the surface", guard)?;
+                // Exponents close to one make it smaller than any number; a guard of one's own then helps.
+                in_range("guard of the surface", "positive", guard, guard > F::ZERO)?;
                 let log_guard = LogMagnitude::of(guard);
                 finite("slope of the surface within its guard", alpha + beta * log_guard.to_power(excess))?;
                 Prepared::Terminal { alpha, beta, exponent, excess, guard, log_guard }
