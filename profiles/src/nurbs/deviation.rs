@@ -13,6 +13,7 @@ const ROUNDING: f64 = 1e-30;
 
 /// The largest distance of two curves at the same parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Deviation {
     /// No distance is larger, m, to roundings of the size; at most 0.1 % above the largest one or 1e-15 of the size.
     pub bound: f64,

@@ -13,6 +13,8 @@ const ROUNDINGS: f64 = 16.0;
 
 /// From which side a curve is looked at where its derivatives jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Side {
     /// From smaller parameters.
     Before,
@@ -26,6 +28,11 @@ pub enum Side {
 /// The first and the last knot are there `degree + 1` times, so that a curve begins in its first and ends in its last
 /// control point; an inner knot is there at most `degree` times, which leaves a corner but no gap.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::unchecked::UncheckedKnots", into = "super::unchecked::UncheckedKnots")
+)]
 pub struct Knots {
     degree: usize,
     all: Vec<f64>,

@@ -23,6 +23,8 @@ mod raise;
 mod reach;
 mod remove;
 mod shape;
+#[cfg(feature = "serde")]
+mod unchecked;
 
 pub use arc_length::ArcLength;
 pub use basis::Basis;

@@ -1,6 +1,6 @@
 //! Operations that leave the curve as it is.
 
-use profiles::nurbs::{MAX_DEGREE, NurbsCurve, NurbsError};
+use profiles::nurbs::{Knots, MAX_DEGREE, NurbsCurve, NurbsError};
 use proptest::prelude::*;
 
 use crate::curves::{CASES, a_curve, are_the_same, at, distance, size};
@@ -156,6 +156,29 @@ fn a_raised_bezier_curve_has_the_textbook_points() {
         assert!(distance(&one, &other) <= 4.0 * f64::EPSILON * 4.0);
     }
     assert!(raised.weights().all(|w| w == 1.0));
+}
+
+/// Points and weights that other libraries give for the quarter circle in degree four, printed with 16 digits.
+#[test]
+fn a_quarter_circle_in_degree_four() {
+    let quarter = NurbsCurve::<2>::arc([0.0, 0.0], 1.0, 0.0, std::f64::consts::FRAC_PI_2);
+    let raised = quarter.and_then(|arc| arc.raised(2)).expect("raised");
+    let points = [
+        [1.0, 0.0],
+        [1.0, 0.414_213_562_373_095_26],
+        [0.792_893_218_813_452_4, 0.792_893_218_813_452_3],
+        [0.414_213_562_373_095_2, 1.0],
+        [0.0, 1.0],
+    ];
+    let weights = [1.0, 0.853_553_390_593_274, 0.804_737_854_124_364_6, 0.853_553_390_593_274_2, 1.0];
+    assert_eq!(raised.knots(), &Knots::bezier(4, 0.0, 1.0).expect("knots"));
+    for ((point, weight), (expected, heavy)) in
+        raised.control_points().zip(raised.weights()).zip(points.iter().zip(weights))
+    {
+        assert!(
+            distance(&point, expected) <= 4.0 * f64::EPSILON && (weight - heavy).abs() <= 4.0 * f64::EPSILON
+        );
+    }
 }
 
 #[test]
