@@ -28,6 +28,8 @@ pub(super) enum Law {
     Dsmc,
     /// The same with another `alpha` in 1/s.
     DsmcOn { alpha: f64 },
+    /// The same as printed, with its reaching law matched to the sampling.
+    DsmcMatched,
     /// Linear surface, exponential law: the traditional one of table 3.
     Traditional,
     /// Linear surface of a slope in 1/s, super-twisting for loads that change by so many N m/s, matched to the sampling.
@@ -52,6 +54,12 @@ impl Law {
         let terminal = SlidingSurface::terminal(alpha, beta, p, q)?;
         let sliding =
             |surface, law| -> Result<SlidingMode> { Ok(SlidingMode::new(surface, law, model, period)?) };
+        let dsmc = |alpha| -> Result<SlidingMode> {
+            let ([k1, k2, k3], [b2, b3]) = (DSMC, DSMC_POWERS);
+            let surface = SlidingSurface::terminal(alpha, beta, p, q)?;
+            let law = sliding(surface, ReachingLaw::improved_double_power(k1, k2, k3, b2, b3)?)?;
+            Ok(law.with_integral_compensation(COMPENSATION)?)
+        };
         let config = match self {
             Self::Pid => {
                 let [kp, ki, kd] = PID;
@@ -67,13 +75,9 @@ impl Law {
                 let law = ReachingLaw::exponential(SMC[0], SMC[1])?;
                 sliding(terminal, law.with_switching(Switching::Saturation { width })?)?
             }
-            Self::Dsmc => return Self::DsmcOn { alpha }.axis(period),
-            Self::DsmcOn { alpha } => {
-                let terminal = SlidingSurface::terminal(alpha, beta, p, q)?;
-                let ([k1, k2, k3], [b2, b3]) = (DSMC, DSMC_POWERS);
-                sliding(terminal, ReachingLaw::improved_double_power(k1, k2, k3, b2, b3)?)?
-                    .with_integral_compensation(COMPENSATION)?
-            }
+            Self::Dsmc => dsmc(alpha)?,
+            Self::DsmcOn { alpha } => dsmc(alpha)?,
+            Self::DsmcMatched => dsmc(alpha)?.with_sampling(Sampling::Matched)?,
             Self::SuperTwisting { slope, load_rate } => {
                 let surface = SlidingSurface::linear(slope)?;
                 let law = SuperTwisting::for_load_rate(surface, load_rate, model, period)?;

@@ -37,7 +37,7 @@ fn families(steps: i32) -> [(&'static str, Role, Vec<Law>); 3] {
 pub(super) fn better(quick: bool, outcome: &mut Outcome) -> Result<()> {
     let title = "Better: what laws of today leave of the load against what they cost in chatter";
     let mut figure = Figure::new("better", title, cost());
-    for (condition, _, every, count) in CONDITIONS {
+    for (condition, encoder, every, count) in CONDITIONS {
         let dsmc = dsmc(every, count)?;
         let mut panel = Panel::new(left(condition));
         for (family, role, laws) in families(if quick { 4 } else { 16 }) {
@@ -52,7 +52,18 @@ pub(super) fn better(quick: bool, outcome: &mut Outcome) -> Result<()> {
             }
             panel = panel.line(family, role, found.iter().map(Reading::point).collect());
         }
-        figure = figure.panel(panel.marks_of("DSMC", vec![(Role::Ours, dsmc.point())]));
+        let matched = readings(&[(Law::DsmcMatched, every, count)])?.into_iter().flatten().next();
+        let matched = matched.context("matched DSMC is unstable")?;
+        outcome.measure(
+            format!("better{encoder}/dsmc-matched/variation-over-dsmc"),
+            matched.chatter / dsmc.chatter,
+        );
+        outcome.measure(
+            format!("better{encoder}/dsmc-matched/load-itse-over-dsmc"),
+            matched.robustness / dsmc.robustness,
+        );
+        panel = panel.marks_of("DSMC", vec![(Role::Ours, dsmc.point())]);
+        figure = figure.panel(panel.marks_of("DSMC, matched", vec![(Role::Ours, matched.point())]));
     }
     outcome.figure(figure);
     robot(outcome)
