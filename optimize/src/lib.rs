@@ -3,12 +3,17 @@
 mod cost;
 mod error;
 mod fitness;
+mod recommend;
 mod simplex;
 mod swarm;
 
 pub use cost::Cost;
 pub use error::{FitnessError, SimplexError, SwarmError};
 pub use fitness::{Fitness, FitnessWeights};
+pub use recommend::{
+    JudgedMove, JudgedShaper, Motion, MoveKind, MoveRecommendation, MoveTask, RecommendError,
+    SHAPER_CAPACITY, ShaperKind, ShaperRecommendation, UncertainMode, recommend_move, recommend_shaper,
+};
 pub use simplex::{SimplexResult, simplex};
 pub use swarm::{
     Boundary, InitialVelocity, ParticleSwarm, Progress, Schedule, Stall, Stop, Stream, Swarm, SwarmOptions,
