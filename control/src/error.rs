@@ -165,3 +165,88 @@ impl From<OutOfRange> for CurrentLoopError {
         Self::Parameter { which, range, value }
     }
 }
+
+/// A sliding mode controller that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SlidingModeError {
+    /// A parameter outside its range.
+    #[error("the {which} must be finite and {range}, got {value}")]
+    Parameter {
+        /// Which parameter.
+        which: &'static str,
+        /// What it must be besides finite.
+        range: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// Exponents that a terminal surface cannot have.
+    #[error("a terminal surface takes odd exponents with 0 < q < p, got p = {p}, q = {q}")]
+    TerminalExponents {
+        /// The `p` given.
+        p: u32,
+        /// The `q` given.
+        q: u32,
+    },
+    /// Exponents that a non-singular terminal surface cannot have.
+    #[error("a non-singular terminal surface takes odd exponents with q < p < 2 q, got p = {p}, q = {q}")]
+    NonsingularExponents {
+        /// The `p` given.
+        p: u32,
+        /// The `q` given.
+        q: u32,
+    },
+    /// Implicit sampling of a law for which it has no closed form.
+    #[error("implicit sampling takes the constant or the exponential law with the sign itself")]
+    NoImplicitForm,
+    /// A non-singular surface where an acceleration must change the surface one to one.
+    #[error("super-twisting takes a linear or a terminal surface")]
+    NonsingularSurface,
+    /// A sampling period that is not positive and finite, s.
+    #[error("the sampling period must be positive and finite, got {0} s")]
+    Period(f64),
+    /// Output limits that leave no room between them.
+    #[error("the lower output limit must lie below the upper one, got [{lower}, {upper}]")]
+    OutputLimits {
+        /// The lower limit given.
+        lower: f64,
+        /// The upper limit given.
+        upper: f64,
+    },
+    /// Numbers so large or so small that a coefficient has no representation.
+    #[error("the configuration leaves the range of its number type: {quantity} would be {value}")]
+    Range {
+        /// The coefficient.
+        quantity: &'static str,
+        /// What came out.
+        value: f64,
+    },
+}
+
+impl From<OutOfRange> for SlidingModeError {
+    fn from(OutOfRange { which, range, value }: OutOfRange) -> Self {
+        Self::Parameter { which, range, value }
+    }
+}
+
+/// A disturbance observer that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ObserverError {
+    /// A parameter that is not positive and finite.
+    #[error("the {which} must be positive and finite, got {value}")]
+    Parameter {
+        /// Which parameter.
+        which: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// Numbers so large or so small that a coefficient has no representation.
+    #[error("the configuration leaves the range of its number type: {quantity} would be {value}")]
+    Range {
+        /// The coefficient.
+        quantity: &'static str,
+        /// What came out.
+        value: f64,
+    },
+}

@@ -17,8 +17,9 @@ pub use linear::{
     spectral_radius, zero_order_hold,
 };
 pub use models::{
-    BeltDrive, DiscreteStateSpace, HeldTransferFunction, LinearMotor, LowPass, Plant, Pmsm, PmsmDrive,
-    PmsmWindings, StateSpace, TransferFunction, TwoInertia,
+    BallScrewAxis, BeltDrive, CartesianRobot, DiscreteStateSpace, Friction, HeldTransferFunction,
+    LinearMotor, LowPass, MeteredStickSlip, Plant, Pmsm, PmsmDrive, PmsmWindings, RobotStepper, StateSpace,
+    StickSlip, TransferFunction, TwoInertia,
 };
 pub use signals::{DelayedHold, Disturbance, Encoder, GaussianNoise, Noise, TransportDelay, UniformNoise};
 pub use simulation::{Channel, Clock, ControlTick, Outcome, Probe, Recording, Saturation, Simulation, Task};

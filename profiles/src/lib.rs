@@ -1,10 +1,15 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
 
+#[cfg(feature = "nurbs")]
+extern crate alloc;
+
 pub mod complex;
 mod cursor;
 mod error;
 mod laws;
+#[cfg(feature = "nurbs")]
+pub mod nurbs;
 mod polynomial;
 mod profile;
 mod pulses;

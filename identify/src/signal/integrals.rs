@@ -46,12 +46,19 @@ impl Signal<'_> {
         self.integral(window, |t, e| t * e.abs())
     }
 
-    fn integral(&self, window: Option<Interval>, f: impl Fn(f64, f64) -> f64) -> Result<f64, SignalError> {
+    /// A window inside the record; the whole record where there is none.
+    pub(super) fn window(&self, window: Option<Interval>) -> Result<Interval, SignalError> {
         let (first, last) = (self.time(0), self.end());
         let Interval { lower, upper } = window.unwrap_or(Interval { lower: first, upper: last });
-        if !(first <= lower && lower <= upper && upper <= last) {
-            return Err(SignalError::Window { lower, upper, first, last });
+        if first <= lower && lower <= upper && upper <= last {
+            Ok(Interval { lower, upper })
+        } else {
+            Err(SignalError::Window { lower, upper, first, last })
         }
+    }
+
+    fn integral(&self, window: Option<Interval>, f: impl Fn(f64, f64) -> f64) -> Result<f64, SignalError> {
+        let Interval { lower, upper } = self.window(window)?;
         let mut sum = 0.0;
         let mut before: Option<(f64, f64)> = None;
         for (time, value) in self.samples() {

@@ -1,5 +1,6 @@
 //! A recorded signal, checked once.
 
+mod chatter;
 mod figures;
 mod integrals;
 

@@ -1,9 +1,12 @@
 //! Continuous models of plants.
 
+mod ball_screw;
 mod belt_drive;
+mod cartesian_robot;
 mod check;
 mod decay;
 mod discrete;
+mod friction;
 mod linear_motor;
 mod low_pass;
 mod plant;
@@ -12,8 +15,11 @@ mod state_space;
 mod transfer_function;
 mod two_inertia;
 
+pub use ball_screw::{BallScrewAxis, MeteredStickSlip, StickSlip};
 pub use belt_drive::BeltDrive;
+pub use cartesian_robot::{CartesianRobot, RobotStepper};
 pub use discrete::DiscreteStateSpace;
+pub use friction::Friction;
 pub use linear_motor::LinearMotor;
 pub use low_pass::LowPass;
 pub use plant::Plant;

@@ -6,19 +6,19 @@ const KEPT: usize = 8;
 
 /// What belongs to the last eight distinct intervals.
 #[derive(Debug, Clone)]
-pub(super) struct Kept<T> {
+pub(crate) struct Kept<T> {
     // Ordered from the last used; the key is the interval.
     entries: Vec<(f64, T)>,
 }
 
 impl<T> Kept<T> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { entries: Vec::with_capacity(KEPT) }
     }
 
     /// What belongs to an interval, made when it is not kept; the usual case, the first, inline.
     #[inline(always)]
-    pub(super) fn get(
+    pub(crate) fn get(
         &mut self,
         interval: f64,
         make: impl FnOnce() -> Result<T, ModelError>,

@@ -16,3 +16,6 @@ pub use metered_rk4::MeteredRk4;
 pub use rk4::Rk4;
 pub use stepper::Stepper;
 pub use zero_order_hold::{HeldLinear, ZeroOrderHold};
+
+pub(crate) use kept::Kept;
+pub(crate) use stepper::check as check_interval;

@@ -1,0 +1,2 @@
+//! Points and derivatives of curves.
+fn main() {}

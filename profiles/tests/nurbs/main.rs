@@ -1,0 +1,8 @@
+//! Curves: what is exact is exact to rounding, and what cannot be is refused.
+#![cfg(feature = "nurbs")]
+#![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
+#![expect(clippy::float_cmp, reason = "numbers that must be equal to the bit")]
+
+mod curves;
+mod evaluation;
+mod exact;
