@@ -72,13 +72,16 @@ pub(super) fn decays(log: &Log<'_>, mut rests: Vec<Rest>, noise: f64, quantum: f
         let Some(values) = log.response.get(rest.first..rest.end) else { continue };
         let (length, swing) = swinging(values, (4.0 * noise).max(1.5 * quantum));
         movement = movement.max(swing);
-        for first in [0, length / 8, length / 4] {
-            let Some(window) = values.get(first..length).filter(|window| window.len() >= LEAST) else {
+        let (eighth, later) = (length / 8, length - length / 4);
+        // What is there is there wherever one begins and ends; what imitates friction or an offset is not.
+        for (first, end) in [(0, length), (0, later), (eighth, length), (eighth, later), (length / 4, length)]
+        {
+            let Some(window) = values.get(first..end).filter(|window| window.len() >= LEAST) else {
                 continue;
             };
             match view(log, window, rest.first + first) {
                 Ok(view) => {
-                    if first == 0 && swing > largest {
+                    if (first, end) == (0, length) && swing > largest {
                         largest = swing;
                         (found.fit, found.noise) = (view.fit, view.noise);
                         found.fitted = Some(view.fitted);
@@ -113,11 +116,32 @@ struct View {
     fitted: Fitted,
     fit: f64,
     noise: f64,
+    /// Samples over which what the fit leaves is correlated.
+    correlation: f64,
 }
 
 /// The modes of one free decay, whose first sample is `first` of the log.
+///
+/// The errors of a count or of friction last for many samples of a slow swing, and a criterion that takes every sample for
+/// news finds modes in them. Where what is left is correlated, blocks of that length are averaged and fitted anew.
 fn view(log: &Log<'_>, values: &[f64], first: usize) -> Result<View, SinusoidError> {
+    const CORRELATED: f64 = 2.0;
+    const FEWEST: usize = 64;
+    const TO_A_PERIOD: f64 = 10.0;
     let block = values.len().div_ceil(MOST);
+    let view = averaged_view(log, values, first, block)?;
+    let sure = view.modes.iter().filter(|mode| mode.significance > 5.0).map(|mode| mode.frequency);
+    let fastest = sure.fold(0.0, f64::max);
+    let longest = std::f64::consts::TAU / (TO_A_PERIOD * fastest * log.period);
+    let longer = ((block as f64 * view.correlation).min(longest) as usize).min(values.len() / FEWEST);
+    if view.correlation > CORRELATED && longer > block {
+        averaged_view(log, values, first, longer)
+    } else {
+        Ok(view)
+    }
+}
+
+fn averaged_view(log: &Log<'_>, values: &[f64], first: usize, block: usize) -> Result<View, SinusoidError> {
     let averaged: Vec<f64> =
         values.chunks_exact(block).map(|chunk| chunk.iter().map(|y| y / block as f64).sum()).collect();
     let period = log.period * block as f64;
@@ -148,7 +172,21 @@ fn view(log: &Log<'_>, values: &[f64], first: usize) -> Result<View, SinusoidErr
     // The average of a block stands at its middle.
     let shift = 0.5 * (block - 1) as f64 * log.period;
     let curve = (0..values.len()).map(|n| value(&found, n as f64 * log.period - shift)).collect();
-    Ok(View { modes, fitted: Fitted { first, values: curve }, fit: found.fit, noise: found.noise })
+    let fitted = Fitted { first, values: curve };
+    Ok(View { modes, fitted, fit: found.fit, noise: found.noise, correlation: correlation(&left) })
+}
+
+/// Samples over which a record is correlated: `1 + 2 sum of r[k]` over the lags up to the first correlation below a
+/// twentieth.
+fn correlation(left: &[f64]) -> f64 {
+    const FAINT: f64 = 0.05;
+    let product = |lag: usize| -> f64 { left.iter().zip(left.iter().skip(lag)).map(|(a, b)| a * b).sum() };
+    let power = product(0);
+    if power <= 0.0 {
+        return 1.0;
+    }
+    let lags = (1..left.len() / 4).map(|lag| product(lag) / power).take_while(|r| *r > FAINT);
+    1.0 + 2.0 * lags.sum::<f64>()
 }
 
 /// The fitted model at a time after its first sample, s.
@@ -252,6 +290,8 @@ mod tests {
         let slow: Vec<f64> = white.windows(20).map(|w| w.iter().sum::<f64>() / 20.0).collect();
         // An average of twenty keeps all of the density below 0.1 and a twentieth of the power.
         assert!(colour(&slow, 0.05) > 6.0);
+        // Its correlation falls in a straight line over twenty samples.
+        assert!(correlation(&white) < 1.3 && (12.0..28.0).contains(&correlation(&slow)));
     }
 
     #[test]

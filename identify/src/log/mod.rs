@@ -218,15 +218,20 @@ pub fn identify_log(log: &Log<'_>, options: &LogOptions) -> Result<LogModes, Log
     match options.route {
         Route::FreeDecay => from_decays(log, options),
         Route::TransferFunction => from_transfers(log, options),
-        Route::Either => from_decays(log, options).or_else(|why| {
-            // A command that never moves has no transfer function.
-            if log.command_range() > 0.0 {
-                from_transfers(log, options).map_err(|other| telling(why, other))
-            } else {
-                Err(why)
-            }
-        }),
+        // A command that never moves has no transfer function.
+        Route::Either if log.command_range() <= 0.0 => from_decays(log, options),
+        Route::Either if rested(log) => from_decays(log, options)
+            .or_else(|why| from_transfers(log, options).map_err(|other| telling(why, other))),
+        Route::Either => from_transfers(log, options)
+            .or_else(|other| from_decays(log, options).map_err(|why| telling(why, other))),
     }
+}
+
+/// Whether the command rests after moves for a good part of the log; in a short rest slow modes cannot be told.
+fn rested(log: &Log<'_>) -> bool {
+    const GOOD: f64 = 0.2;
+    let rests: usize = rests_after_moves(log).iter().map(Rest::samples).sum();
+    rests as f64 >= GOOD * log.response.len() as f64
 }
 
 /// Of two reasons the one that says more of the axis.
@@ -315,7 +320,8 @@ fn selected(
         if seen.amplitude < least {
             return Err(LogError::Faint { angular_frequency, amplitude: seen.amplitude, least });
         }
-        let confirmed = group.found > 1 || views < 2;
+        // By most views: a model too large has modes of its own in every one.
+        let confirmed = 2 * group.found > views;
         if !confirmed || deviation > VAGUE * angular_frequency || seen.significance < SURE {
             return Err(LogError::Vague { angular_frequency, deviation, found: group.found, views });
         }

@@ -18,21 +18,27 @@ pub(super) struct Step {
 /// The move over which the command goes farthest; none where no move has a rest on both sides.
 pub(super) fn largest(log: &Log<'_>) -> Option<Step> {
     const TOLERANCES: [f64; 3] = [1e-6, 1e-3, 1e-2];
-    /// Of a rest before a move a few samples will do: the axis has stood there.
-    const LEAST: usize = 4;
+    /// Of a rest at the start of the log a few samples will do: the axis has stood there.
+    const FEWEST: usize = 4;
+    const LEAST: usize = 32;
     let range = log.command_range();
     if range <= 0.0 {
         return None;
     }
-    let found =
-        TOLERANCES.iter().map(|part| rests(log.command, part * range, LEAST)).find(|r| r.len() > 1)?;
+    let standing = |log: &Log<'_>, tolerance: f64| {
+        let mut found = rests(log.command, tolerance, FEWEST);
+        found.retain(|rest| rest.first == 0 || rest.samples() >= LEAST);
+        found
+    };
+    let found = TOLERANCES.iter().map(|part| standing(log, part * range)).find(|r| r.len() > 1)?;
     let steps = found.windows(2).filter_map(|pair| {
         let (before, after) = (*pair.first()?, *pair.last()?);
         let command = |at: usize| log.command.get(at).copied();
         let moved = command(after.end.checked_sub(1)?)? - command(before.end.checked_sub(1)?)?;
         // At rest the response is where it stands last.
         let (from, to) = (mean_of_end(log.response, before)?, mean_of_end(log.response, after)?);
-        (moved.abs() > 0.0).then_some(Step { before, after, command: moved, from, to })
+        // A drift or the end of an excitation is no move.
+        (moved.abs() >= 0.5 * range).then_some(Step { before, after, command: moved, from, to })
     });
     steps.max_by(|a, b| a.command.abs().total_cmp(&b.command.abs()))
 }
