@@ -108,6 +108,28 @@ pub enum ShaperError {
     Train(#[from] TrainError),
 }
 
+/// A range of modes that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ModeRangeError {
+    /// Frequencies that are not positive, finite and in order, rad/s.
+    #[error("the frequencies of a range must be positive, finite and in order, got {lower} to {upper} rad/s")]
+    Frequency {
+        /// The lower end, rad/s.
+        lower: f64,
+        /// The upper end, rad/s.
+        upper: f64,
+    },
+    /// Damping ratios outside `[0, 1)` or not in order.
+    #[error("the damping ratios of a range must lie in [0, 1) and be in order, got {lower} to {upper}")]
+    DampingRatio {
+        /// The lower end.
+        lower: f64,
+        /// The upper end.
+        upper: f64,
+    },
+}
+
 /// A delay filter that cannot be.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

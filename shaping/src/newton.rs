@@ -68,7 +68,6 @@ pub(crate) fn newton<const N: usize>(
     let mut rows = equations(&unknowns);
     let mut residual = size(&rows);
     for _ in 0..STEPS {
-        // Written so that NaN leaves, too.
         if residual <= ZERO {
             break;
         }
@@ -77,7 +76,7 @@ pub(crate) fn newton<const N: usize>(
         next.iter_mut().zip(&step).for_each(|(x, dx)| *x -= dx);
         let next_rows = equations(&next);
         let next_residual = size(&next_rows);
-        if residual <= ACCEPTED && !(next_residual < residual) {
+        if residual <= ACCEPTED && (next_residual >= residual || next_residual.is_nan()) {
             break;
         }
         (unknowns, rows, residual) = (next, next_rows, next_residual);
@@ -98,7 +97,11 @@ pub(crate) enum Continued<const N: usize> {
 }
 
 /// Steps tried along a parameter before it is given up.
-const TRIES: usize = 60;
+const TRIES: usize = 100;
+/// The longest step of a way that is gone with care.
+const CAREFUL: f64 = 0.03;
+/// The shortest step.
+const SHORTEST: f64 = 1e-5;
 
 /// Follows the zero that `known` is at the parameter 0 to the parameter `target > 0`: in one step if `guess` is good
 /// enough for that, else in as many as it takes, each from a straight line through the last two.
@@ -108,9 +111,12 @@ pub(crate) fn continued<const N: usize>(
     guess: impl Fn(f64) -> [f64; N],
     solution: impl Fn(f64, [f64; N]) -> Option<[f64; N]>,
 ) -> Continued<N> {
+    if let Some(found) = solution(target, guess(target)) {
+        return Continued::Reached(found);
+    }
     let mut before = (0.0, known);
     let mut last = (0.0, known);
-    let mut step = target;
+    let mut step = CAREFUL;
     for _ in 0..TRIES {
         let next = if last.0 + step < target { last.0 + step } else { target };
         let start = if last.0 > 0.0 {
@@ -126,11 +132,11 @@ pub(crate) fn continued<const N: usize>(
             Some(found) => {
                 before = last;
                 last = (next, found);
-                step *= 1.5;
+                step = (1.5 * step).min(CAREFUL);
             }
             None => step *= 0.5,
         }
-        if step < 1e-4 * target {
+        if step < SHORTEST {
             break;
         }
     }

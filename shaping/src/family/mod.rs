@@ -25,6 +25,8 @@ use crate::train::ImpulseTrain;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Shaper {
     /// A zero of this order on the mode: `order + 1` positive impulses half a damped period apart, with the amplitudes
