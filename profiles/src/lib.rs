@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
 
+mod chain;
 pub mod complex;
 mod cursor;
 mod error;
@@ -13,8 +14,9 @@ mod section;
 mod stretch;
 mod table;
 
+pub use chain::{Chain, Link};
 pub use cursor::Cursor;
-pub use error::{ClockError, LimitsError, ModeError, PlanError, PulseError, TableError};
+pub use error::{ChainError, ClockError, LimitsError, ModeError, PlanError, PulseError, TableError};
 pub use laws::{Cosine, FivePhase, SCurve, SnapLimited, Trapezoid};
 pub use num_complex::Complex;
 pub use polynomial::Piecewise;
