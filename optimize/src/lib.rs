@@ -12,7 +12,7 @@ pub use error::{FitnessError, SimplexError, SwarmError};
 pub use fitness::{Fitness, FitnessWeights};
 pub use recommend::{
     JudgedMove, JudgedShaper, Motion, MoveKind, MoveRecommendation, MoveTask, RecommendError,
-    SHAPER_CAPACITY, ShaperKind, ShaperRecommendation, UncertainMode, recommend_move, recommend_shaper,
+    SHAPER_CAPACITY, ShaperRecommendation, UncertainMode, recommend_move, recommend_shaper, shaper_name,
 };
 pub use simplex::{SimplexResult, simplex};
 pub use swarm::{

@@ -75,7 +75,7 @@ fn spectrum(tuning: &Tuning, [_, _, response]: &[String; 3]) -> Option<Figure> {
     let shown: Vec<(f64, f64)> = spectrum
         .bins()
         .map(|(w, amplitude)| (w / TAU, amplitude))
-        .filter(|(f, amplitude)| *f > 0.0 && *f < 6.0 * highest && *amplitude > 0.0)
+        .filter(|(f, amplitude)| *f > 0.0 && *f < 3.0 * highest && *amplitude > 0.0)
         .collect();
     if shown.len() < 2 {
         return None;
@@ -84,12 +84,14 @@ fn spectrum(tuning: &Tuning, [_, _, response]: &[String; 3]) -> Option<Figure> {
     let mut panel = Panel::new(Quantity::new("amplitude", "", &unit).logarithmic()).line(
         "",
         Role::Reference,
-        thinned(shown),
+        thinned(shown.clone()),
     );
-    for (n, mode) in tuning.found.modes.iter().enumerate() {
-        let margin = tuning.deviations * mode.frequency_deviation / TAU;
-        panel = panel.band(mode.mode.hz() - margin, mode.mode.hz() + margin, &format!("mode {}", n + 1));
-    }
+    let height = |hz: f64| {
+        let near = |a: &&(f64, f64), b: &&(f64, f64)| (a.0 - hz).abs().total_cmp(&(b.0 - hz).abs());
+        shown.iter().min_by(near).map_or(hz, |(_, amplitude)| *amplitude)
+    };
+    let modes = tuning.found.modes.iter().map(|mode| (mode.mode.hz(), height(mode.mode.hz()))).collect();
+    panel = panel.marks("modes", modes);
     let frequency = Quantity::new("frequency", "f", "Hz");
     Some(Figure::new("spectrum", "Spectrum of the fitted part of the response", frequency).panel(panel))
 }
@@ -102,7 +104,7 @@ fn shapers(tuning: &Tuning) -> Figure {
         let kinds = judged.iter().zip([Role::Ours, Role::Second, Role::Third, Role::Fourth]);
         for (shaper, role) in kinds {
             let left = |part: f64| shaper.train.sensitivity(mode.mode(), part);
-            panel = panel.line(shaper.kind.name(), role, over_errors(left));
+            panel = panel.line(&shaper.name(), role, over_errors(left));
         }
         panel = known(panel, mode, tuning.deviations);
     }

@@ -57,7 +57,7 @@ struct ModePart {
 
 #[derive(Serialize)]
 struct ShaperPart {
-    kinds: Vec<&'static str>,
+    kinds: Vec<String>,
     tolerated_part: f64,
     worst_part: f64,
     within: bool,
@@ -162,7 +162,7 @@ fn modes(tuning: &Tuning) -> Vec<ModePart> {
 fn shaper(tuning: &Tuning) -> ShaperPart {
     let shaper = &tuning.shaper;
     ShaperPart {
-        kinds: chosen(tuning).map(|judged| judged.kind.name()).collect(),
+        kinds: chosen(tuning).map(JudgedShaper::name).collect(),
         tolerated_part: tuning.tolerated_part,
         worst_part: shaper.worst,
         within: shaper.within,

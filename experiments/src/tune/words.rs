@@ -103,7 +103,7 @@ pub(super) fn shapers(tuning: &Tuning) -> Table {
             judged.iter().enumerate().map(move |(at, shaper)| {
                 let mark = if at == *chosen { " *" } else { "" };
                 vec![
-                    format!("mode {}: {}{mark}", n + 1, shaper.kind.name()),
+                    format!("mode {}: {}{mark}", n + 1, shaper.name()),
                     short(1e3 * shaper.train.duration()),
                     percent(shaper.nominal),
                     percent(shaper.worst),
@@ -161,7 +161,7 @@ pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
             ));
         }
     }
-    let names: Vec<&str> = chosen(tuning).map(|judged| judged.kind.name()).collect();
+    let names: Vec<String> = chosen(tuning).map(|judged| judged.name()).collect();
     let shaper = &tuning.shaper;
     let all = if names.len() > 1 { ", one after the other" } else { "" };
     let falls = if shaper.within { "" } else { ", which is more than tolerated; no shaper here leaves less" };

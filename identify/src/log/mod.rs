@@ -299,7 +299,7 @@ fn selected(
     quantum: f64,
     options: &LogOptions,
 ) -> Result<Vec<LogMode>, LogError> {
-    /// Deviation over frequency beyond which a mode is a guess.
+    /// Deviation of the frequency over it, and of the damping ratio, beyond which a mode is a guess.
     const VAGUE: f64 = 0.1;
     /// Norm of a mode over that of the noise below which it may be noise.
     const SURE: f64 = 5.0;
@@ -322,7 +322,8 @@ fn selected(
         }
         // By most views: a model too large has modes of its own in every one.
         let confirmed = 2 * group.found > views;
-        if !confirmed || deviation > VAGUE * angular_frequency || seen.significance < SURE {
+        let vague = deviation > VAGUE * angular_frequency || seen.damping_deviation > VAGUE;
+        if !confirmed || vague || seen.significance < SURE {
             return Err(LogError::Vague { angular_frequency, deviation, found: group.found, views });
         }
         Ok(LogMode {

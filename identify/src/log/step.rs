@@ -59,8 +59,8 @@ impl Step {
     /// The class of the response; none where it does not move by more than its noise.
     pub(super) fn class(&self, log: &Log<'_>, noise: f64, quantum: f64) -> Option<ClassifiedResponse> {
         let length = (self.to - self.from).abs();
-        // Above the peak-to-peak noise, and a count and a half of the sensor.
-        let prominence = (8.0 * noise).max(1.5 * quantum) / length;
+        // Above the peak-to-peak noise of any record, and a count and a half of the sensor.
+        let prominence = (10.0 * noise).max(1.5 * quantum) / length;
         if !(prominence < 0.5) {
             return None;
         }
@@ -68,7 +68,7 @@ impl Step {
         let rule = ResponseClassifier::default();
         let rule = ResponseClassifier {
             prominence: prominence.max(rule.prominence),
-            threshold: (0.5 * prominence).max(rule.threshold),
+            threshold: (0.6 * prominence).max(rule.threshold),
             ..rule
         };
         rule.classify(&Signal::sampled(values, log.period).ok()?, self.from, self.to).ok()

@@ -4,6 +4,7 @@ use profiles::Complex;
 
 use super::pool::Sighting;
 use super::{Fitted, Log, LogError};
+use crate::error::TransferFunctionError;
 use crate::transfer_function::{
     Hold, RootEstimate, TransferFunctionFit, TransferFunctionOptions, fit_transfer_function,
 };
@@ -119,11 +120,13 @@ fn tried(input: &[f64], output: &[f64], period: f64, hold: Hold) -> Result<Vec<T
         }
         worse = if least < before { 0 } else { worse + 1 };
         // A mode more takes two poles more.
-        if worse > 2 {
+        if worse > 1 {
             break;
         }
     }
     match last {
+        // Not even one pole: a gain says it all, and the caller has that.
+        Some(TransferFunctionError::Undetermined { .. }) => Ok(tried),
         Some(error) if tried.is_empty() => Err(error.into()),
         _ => Ok(tried),
     }

@@ -31,6 +31,12 @@ pub enum RecommendError {
     /// No mode to shape a command for.
     #[error("a shaper needs a mode to be made for")]
     NoModes,
+    /// No shaper exists for a mode.
+    #[error("no shaper can be made for the mode at {angular_frequency} rad/s")]
+    NoShaper {
+        /// Undamped angular frequency, rad/s.
+        angular_frequency: f64,
+    },
     /// The limits allow no move.
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -11,5 +11,5 @@ pub use motion::{Motion, MoveKind};
 pub use moves::{JudgedMove, MoveRecommendation, MoveTask, recommend_move};
 pub use region::UncertainMode;
 pub use shapers::{
-    CAPACITY as SHAPER_CAPACITY, JudgedShaper, ShaperKind, ShaperRecommendation, recommend_shaper,
+    CAPACITY as SHAPER_CAPACITY, JudgedShaper, ShaperRecommendation, recommend_shaper, shaper_name,
 };

@@ -1,19 +1,26 @@
 //! The moves a recommendation chooses from.
 
-use profiles::{Complex, Extrema, Profile, SCurve, Sample};
-use shaping::Shaped;
+use profiles::{Chain, Complex, Extrema, Profile, SCurve, Sample};
+use shaping::{Shaped, Shaper};
 
-use super::shapers::{CAPACITY, ShaperKind};
+use super::shapers::{CAPACITY, shaper_name};
+
+/// Sections of a chain for four modes.
+pub(super) const SECTIONS: usize = 191;
 
 /// How a move is kept from leaving vibration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MoveKind {
     /// The S-curve, which knows of no mode.
     SCurve,
     /// The S-curve through a shaper of one kind for every mode.
-    Shaped(ShaperKind),
+    Shaped(Shaper),
+    /// A step through a chain of averages with a zero of this order on every mode.
+    Chain {
+        /// Order of the zeros.
+        order: usize,
+    },
 }
 
 impl MoveKind {
@@ -22,7 +29,9 @@ impl MoveKind {
     pub fn name(&self) -> String {
         match self {
             Self::SCurve => "S-curve".to_owned(),
-            Self::Shaped(kind) => format!("S-curve with {}", kind.name()),
+            Self::Shaped(shaper) => format!("S-curve with {}", shaper_name(shaper)),
+            Self::Chain { order: 1 } => "chain of averages".to_owned(),
+            Self::Chain { order } => format!("chain of averages, zeros of order {order}"),
         }
     }
 }
@@ -35,6 +44,8 @@ pub enum Motion {
     SCurve(SCurve),
     /// The S-curve through a train.
     Shaped(Box<Shaped<SCurve, CAPACITY>>),
+    /// A step through a chain of averages.
+    Chain(Box<Chain<SECTIONS>>),
 }
 
 impl Motion {
@@ -42,6 +53,7 @@ impl Motion {
         match self {
             Self::SCurve(profile) => profile,
             Self::Shaped(profile) => profile.as_ref(),
+            Self::Chain(profile) => profile.as_ref(),
         }
     }
 }

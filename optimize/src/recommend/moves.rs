@@ -1,12 +1,12 @@
 //! Which move for a distance within limits.
 
-use profiles::{Complex, Limits, Profile, SCurve, residual_vibration};
-use shaping::{ImpulseTrain, Shaped, TrainError};
+use profiles::{Chain, Complex, Limits, Mode, Profile, SCurve, residual_vibration};
+use shaping::Shaped;
 
 use super::error::{RecommendError, not_negative, positive};
 use super::motion::{Motion, MoveKind};
 use super::region::{Region, UncertainMode};
-use super::shapers::{CAPACITY, ShaperKind, all_together};
+use super::shapers::{all_together, kinds};
 
 /// What a move has to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,10 +98,13 @@ pub fn recommend_move(
     let regions: Vec<Region> =
         modes.iter().map(|mode| Region::of(mode, deviations)).collect::<Result<_, _>>()?;
     let plain = SCurve::rest_to_rest(task.distance, &task.limits)?;
-    let mut moves: Vec<JudgedMove> = candidates(modes, &plain)
-        .into_iter()
-        .map(|(kind, motion)| judged(kind, motion, modes, &regions, tolerated))
-        .collect();
+    let judged = |kind, motion| judged(kind, motion, modes, &regions, tolerated);
+    let without = judged(MoveKind::SCurve, Motion::SCurve(plain));
+    // What an insensitive shaper may leave of the vibration.
+    let part = tolerated / without.worst.max(tolerated);
+    let with = candidates(modes, &plain, task, part);
+    let mut moves: Vec<JudgedMove> = with.into_iter().map(|(kind, motion)| judged(kind, motion)).collect();
+    moves.push(without);
     moves.sort_by(|a, b| a.total().total_cmp(&b.total()));
     let tie = moves.first().map_or(0.0, JudgedMove::total) + 1e-3 * plain.duration();
     let equal = moves.iter().enumerate().take_while(|(_, judged)| judged.total() <= tie);
@@ -112,21 +115,28 @@ pub fn recommend_move(
     Ok(MoveRecommendation { moves })
 }
 
-/// All moves there are for these modes; a kind that cannot be made for them is left out.
-fn candidates(modes: &[UncertainMode], plain: &SCurve) -> Vec<(MoveKind, Motion)> {
-    let mut found = vec![(MoveKind::SCurve, Motion::SCurve(*plain))];
+/// The moves that know of the modes; a kind that cannot be made for them is left out.
+fn candidates(
+    modes: &[UncertainMode],
+    plain: &SCurve,
+    task: &MoveTask,
+    part: f64,
+) -> Vec<(MoveKind, Motion)> {
     if modes.is_empty() {
-        return found;
+        return Vec::new();
     }
-    let train = |kind: ShaperKind| -> Result<ImpulseTrain<CAPACITY>, TrainError> {
-        let trains = modes.iter().map(|mode| kind.train(mode.mode())).collect::<Result<Vec<_>, _>>()?;
-        all_together(&trains)
-    };
-    found.extend(ShaperKind::ALL.into_iter().filter_map(|kind| {
-        let shaped = Shaped::new(*plain, train(kind).ok()?);
-        Some((MoveKind::Shaped(kind), Motion::Shaped(Box::new(shaped))))
-    }));
-    found
+    let all: Vec<Mode> = modes.iter().map(UncertainMode::mode).collect();
+    let chains = (1..=2).filter_map(|order| {
+        let zeros: Vec<Mode> = all.iter().flat_map(|mode| std::iter::repeat_n(*mode, order)).collect();
+        let chain = Chain::rest_to_rest(task.distance, &task.limits, &zeros).ok()?;
+        Some((MoveKind::Chain { order }, Motion::Chain(Box::new(chain))))
+    });
+    let shaped = kinds(part).into_iter().filter_map(|shaper| {
+        let trains = all.iter().map(|mode| shaper.train(*mode)).collect::<Result<Vec<_>, _>>().ok()?;
+        let shaped = Shaped::new(*plain, all_together(&trains).ok()?);
+        Some((MoveKind::Shaped(shaper), Motion::Shaped(Box::new(shaped))))
+    });
+    chains.chain(shaped).collect()
 }
 
 fn judged(

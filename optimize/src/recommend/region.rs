@@ -1,6 +1,7 @@
 //! A mode that is known to some deviation, and the worst of a response over all it may be.
 
-use profiles::{Complex, Mode, Real};
+use profiles::{Complex, Interval, Mode, Real};
+use shaping::ModeRange;
 
 use super::error::{RecommendError, not_negative};
 
@@ -63,8 +64,7 @@ impl UncertainMode {
 /// All a mode may be: so many standard deviations of frequency and of damping either way.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
-    frequencies: [f64; 2],
-    dampings: [f64; 2],
+    modes: ModeRange,
 }
 
 impl Region {
@@ -75,25 +75,30 @@ impl Region {
         const MOST: f64 = 0.95;
         let (w, z) = (mode.mode.angular_frequency(), mode.mode.damping_ratio());
         let margin = deviations * mode.frequency_deviation;
+        let vague = RecommendError::Vague { angular_frequency: w, margin };
         if !(w - margin >= LEAST * w) {
-            return Err(RecommendError::Vague { angular_frequency: w, margin });
+            return Err(vague);
         }
         let about = deviations * mode.damping_deviation;
-        Ok(Self {
-            frequencies: [w - margin, w + margin],
-            dampings: [(z - about).max(0.0), (z + about).min(MOST.max(z))],
-        })
+        let dampings = Interval::new((z - about).max(0.0), (z + about).min(MOST.max(z)));
+        let modes = ModeRange::new(Interval::new(w - margin, w + margin), dampings).map_err(|_| vague)?;
+        Ok(Self { modes })
+    }
+
+    pub(super) fn modes(&self) -> &ModeRange {
+        &self.modes
     }
 
     /// The slowest decay, 1/s.
     pub(super) fn slowest_decay(&self) -> f64 {
-        self.frequencies[0] * self.dampings[0]
+        let lowest = self.modes.lowest();
+        lowest.angular_frequency() * lowest.damping_ratio()
     }
 
     /// The lowest damped angular frequency, rad/s.
     pub(super) fn lowest_damped(&self) -> f64 {
-        let z = self.dampings[1];
-        self.frequencies[0] * Real::sqrt((1.0 - z) * (1.0 + z))
+        let z = self.modes.damping_ratio().upper;
+        self.modes.angular_frequency().lower * Real::sqrt((1.0 - z) * (1.0 + z))
     }
 
     /// A bound of `|f(p)|` for every pole of the region, within `slack` above the largest.
@@ -108,7 +113,7 @@ impl Region {
         slack: f64,
     ) -> f64 {
         const MOST: f64 = 4000.0;
-        let [low, high] = self.frequencies;
+        let Interval { lower: low, upper: high } = self.modes.angular_frequency();
         let curvature = slopes[1] + slopes[0] / low;
         let finest = Real::sqrt(8.0 * slack / curvature);
         let pole = |w: f64, z: f64| Complex::new(-z * w, w * Real::sqrt((1.0 - z) * (1.0 + z)));
@@ -120,14 +125,14 @@ impl Region {
         };
         let ray = |z: f64| along(high - low, &|x| pole(low + x * (high - low), z));
         let angle = |z: f64| Real::atan2(z, Real::sqrt((1.0 - z) * (1.0 + z)));
-        let [first, last] = self.dampings.map(angle);
+        let Interval { lower: thin, upper: thick } = self.modes.damping_ratio();
+        let [first, last] = [thin, thick].map(angle);
         let arc = |w: f64| {
             along(w * (last - first), &|x| {
                 let (sine, cosine) = Real::sin_cos(first + x * (last - first));
                 Complex::new(-w * sine, w * cosine)
             })
         };
-        let [thin, thick] = self.dampings;
         ray(thin).max(ray(thick)).max(arc(low)).max(arc(high))
     }
 }
