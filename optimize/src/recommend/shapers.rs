@@ -85,8 +85,8 @@ pub struct ShaperRecommendation {
 ///     assert!(found.within && found.worst <= 0.05);
 ///     Ok(found.judged[0][found.chosen[0]].name())
 /// };
-/// // With the frequency known to 0.5, 3 and 6 % (one standard deviation)
-/// assert_eq!([name(0.005)?, name(0.03)?, name(0.06)?], ["ZV", "ZVD", "EI"]);
+/// // With the frequency known to 0.5, 1.5 and 6 % (one standard deviation)
+/// assert_eq!([name(0.005)?, name(0.015)?, name(0.06)?], ["ZV", "MZV", "EI"]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
