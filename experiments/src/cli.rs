@@ -13,7 +13,7 @@ use crate::experiment::Experiment;
 use crate::figure::{Theme, Width, to_svg};
 use crate::report::folder::{FolderError, Staging};
 use crate::report::{self, PAGE, terminal};
-use crate::{readme, registry};
+use crate::{readme, registry, tune};
 
 /// Reproduces published results and shows them beside ours. Without a command, runs everything.
 #[derive(Debug, Parser)]
@@ -36,6 +36,8 @@ enum Command {
     },
     /// Runs everything and rewrites the results table of README.md and its picture in docs/
     Readme,
+    /// Reads a log of an axis; reports its modes, the move and the shaper to use
+    Tune(Box<tune::Arguments>),
 }
 
 #[derive(Debug, Args)]
@@ -71,8 +73,10 @@ pub fn main(
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let typed = typed(&arguments);
     let result = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => Bench { experiments, root }.act(arguments, out, err),
+        Ok(arguments) => Bench { experiments, root }.act(arguments, &typed, out, err),
         Err(error) if !error.use_stderr() => write!(out, "{error}").map(|()| 0).map_err(Into::into),
         Err(error) => {
             let text = error.to_string();
@@ -88,9 +92,24 @@ pub fn main(
         let line = format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ");
         // If standard error is closed too, the exit code is all that is left.
         let _ = writeln!(err, "error: {line}");
-        let usage = error.is::<Usage>() || error.is::<FolderError>();
+        let request = error.is::<tune::RequestError>() || error.is::<tune::LogFileError>();
+        let usage = request || error.is::<Usage>() || error.is::<FolderError>();
         if usage { 2 } else { 1 }
     })
+}
+
+/// The command as it is typed again.
+fn typed(arguments: &[OsString]) -> String {
+    let mut typed = "cargo run -p experiments --".to_owned();
+    for argument in arguments.iter().skip(1) {
+        let argument = argument.to_string_lossy();
+        let plain = argument.bytes().all(|b| b.is_ascii_alphanumeric() || b"-_./=,:+".contains(&b));
+        let quoted =
+            if plain { argument.into_owned() } else { format!("'{}'", argument.replace('\'', "'\\''")) };
+        typed.push(' ');
+        typed.push_str(&quoted);
+    }
+    typed
 }
 
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
@@ -103,7 +122,7 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    fn act(&self, arguments: Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<u8> {
+    fn act(&self, arguments: Arguments, typed: &str, out: &mut dyn Write, err: &mut dyn Write) -> Result<u8> {
         let Setting { seed, seeds, quick } = Setting::default();
         let all = Run { ids: Vec::new(), out: None, seed, seeds, quick };
         match arguments.command.unwrap_or(Command::Run(all)) {
@@ -117,6 +136,7 @@ impl Bench<'_> {
             Command::Run(run) => self.write_report(&run, out),
             Command::Check { ids } => self.check(&ids, out, err),
             Command::Readme => self.write_readme(out),
+            Command::Tune(arguments) => tune::run(&arguments, self.root, typed, out),
         }
     }
 

@@ -4,6 +4,7 @@ mod cost;
 mod error;
 mod fitness;
 mod genetic;
+mod recommend;
 pub mod reduction;
 mod simplex;
 mod swarm;
@@ -12,6 +13,10 @@ pub use cost::Cost;
 pub use error::{FitnessError, SimplexError, SwarmError};
 pub use fitness::{Fitness, FitnessWeights};
 pub use genetic::{Breeding, Crossover, GeneticOptions, GeneticSwarm, Mates, Mutation};
+pub use recommend::{
+    JudgedMove, JudgedShaper, Motion, MoveKind, MoveRecommendation, MoveTask, RecommendError,
+    SHAPER_CAPACITY, ShaperRecommendation, UncertainMode, recommend_move, recommend_shaper, shaper_name,
+};
 pub use reduction::{ReductionError, reduce_degree};
 pub use simplex::{SimplexResult, simplex};
 pub use swarm::{

@@ -107,6 +107,31 @@ pub enum PlanError {
     },
 }
 
+/// A chain that cannot be planned.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ChainError {
+    /// More modes than a chain can leave at rest.
+    #[error("a chain can leave {most} modes at rest, not {modes}")]
+    Modes {
+        /// Modes given.
+        modes: usize,
+        /// The most there may be.
+        most: usize,
+    },
+    /// More sections than the chain has room for.
+    #[error("a chain of {needed} sections does not fit into one of {capacity}")]
+    Sections {
+        /// Sections of the smallest chain there could be.
+        needed: usize,
+        /// Sections there is room for.
+        capacity: usize,
+    },
+    /// A move that cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+}
+
 /// A clock that cannot drive a profile.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

@@ -4,6 +4,7 @@
 #[cfg(feature = "nurbs")]
 extern crate alloc;
 
+mod chain;
 pub mod complex;
 mod cursor;
 mod error;
@@ -18,8 +19,9 @@ mod section;
 mod stretch;
 mod table;
 
+pub use chain::{Chain, Link};
 pub use cursor::Cursor;
-pub use error::{ClockError, LimitsError, ModeError, PlanError, PulseError, TableError};
+pub use error::{ChainError, ClockError, LimitsError, ModeError, PlanError, PulseError, TableError};
 pub use laws::{Cosine, FivePhase, SCurve, SnapLimited, Trapezoid};
 pub use num_complex::Complex;
 pub use polynomial::Piecewise;

@@ -5,7 +5,8 @@ use core::f64::consts::TAU;
 use profiles::{Mode, Real};
 
 use crate::error::DelayFilterError;
-use crate::train::{Impulse, ImpulseTrain};
+use crate::family::spaced::Spaced;
+use crate::train::ImpulseTrain;
 
 /// Impulses beyond this would amplify the rounding of a command to a visible part of it.
 const LARGEST: f64 = 1e6;
@@ -47,24 +48,14 @@ impl DelayFilter {
             return Err(DelayFilterError::Delay(delay));
         }
         let pole = mode.pole();
-        let decay = Real::exp(pole.re * delay);
-        let (sine, cosine) = Real::sin_cos(pole.im * delay);
-        // |1 - e^(p T)|^2 as a sum of squares: the sum of the three amplitudes cancels near whole periods.
-        let (re, im) = (1.0 - decay * cosine, decay * sine);
-        let sum = re * re + im * im;
-        let raw = [1.0, -2.0 * decay * cosine, decay * decay];
-        let largest = (1.0_f64.max(raw[1].abs())) / sum;
-        let too_large = || DelayFilterError::WholePeriods { delay, turns: pole.im * delay / TAU, largest };
+        let angle = pole.im * delay;
+        let filter = Spaced::<3>::one().with_pair(Real::exp(pole.re * delay), angle);
+        let largest = filter.largest();
+        let too_large = || DelayFilterError::WholePeriods { delay, turns: angle / TAU, largest };
         if largest.is_nan() || largest > LARGEST {
             return Err(too_large());
         }
-        let [first, second, third] = raw;
-        let impulses = [
-            Impulse::new(0.0, first / sum),
-            Impulse::new(delay, second / sum),
-            Impulse::new(2.0 * delay, third / sum),
-        ];
-        let train = ImpulseTrain::new(&impulses).map_err(|_| too_large())?;
+        let train = filter.train(delay).map_err(|_| too_large())?;
         Ok(Self { delay, train })
     }
 

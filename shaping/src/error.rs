@@ -40,6 +40,96 @@ pub enum TrainError {
     Sum(f64),
 }
 
+/// A shaper that cannot be, for a mode or at all.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShaperError {
+    /// An order of zero, or one higher than there is.
+    #[error("the order of the zero must be 1 to {most}, got {order}")]
+    Order {
+        /// The order given.
+        order: usize,
+        /// The highest order there is.
+        most: usize,
+    },
+    /// Too few impulses.
+    #[error("there must be at least {least} impulses, got {impulses}")]
+    Impulses {
+        /// The number given.
+        impulses: usize,
+        /// The smallest number.
+        least: usize,
+    },
+    /// A span that is not positive, or so long that the first zero is past its own alias, damped periods.
+    #[error("impulses can be spread over more than 0 and at most {most} damped periods, got {span}")]
+    Span {
+        /// The span given, damped periods.
+        span: f64,
+        /// The longest span, damped periods.
+        most: f64,
+    },
+    /// Equally spaced impulses of which one would be negative.
+    #[error("{impulses} impulses over {span} damped periods would not all be positive")]
+    Negative {
+        /// The number given.
+        impulses: usize,
+        /// The span given, damped periods.
+        span: f64,
+    },
+    /// No hump, or more than there are.
+    #[error("there can be 1 to {most} humps, got {humps}")]
+    Humps {
+        /// The number given.
+        humps: usize,
+        /// The largest number.
+        most: usize,
+    },
+    /// A tolerated vibration that is not between nothing and all.
+    #[error("the tolerated vibration must lie between 0 and 1, got {0}")]
+    Tolerance(f64),
+    /// A sum of magnitudes that no such train has.
+    #[error("the magnitudes of the impulses can add up to 1 to {most}, got {demand}")]
+    Demand {
+        /// The sum given.
+        demand: f64,
+        /// The largest sum.
+        most: f64,
+    },
+    /// A mode so damped that the equations have no solution.
+    #[error("no such shaper for a damping ratio of {damping_ratio}; there is one for {reached}")]
+    Damping {
+        /// Damping ratio of the mode.
+        damping_ratio: f64,
+        /// The highest damping ratio at which one was found.
+        reached: f64,
+    },
+    /// A train that cannot be.
+    #[error(transparent)]
+    Train(#[from] TrainError),
+}
+
+/// A range of modes that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ModeRangeError {
+    /// Frequencies that are not positive, finite and in order, rad/s.
+    #[error("the frequencies of a range must be positive, finite and in order, got {lower} to {upper} rad/s")]
+    Frequency {
+        /// The lower end, rad/s.
+        lower: f64,
+        /// The upper end, rad/s.
+        upper: f64,
+    },
+    /// Damping ratios outside `[0, 1)` or not in order.
+    #[error("the damping ratios of a range must lie in [0, 1) and be in order, got {lower} to {upper}")]
+    DampingRatio {
+        /// The lower end.
+        lower: f64,
+        /// The upper end.
+        upper: f64,
+    },
+}
+
 /// A delay filter that cannot be.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]

@@ -8,6 +8,8 @@ use crate::error::TrainError;
 
 /// One impulse of a train.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Impulse {
     /// Time, s.
     pub time: f64,

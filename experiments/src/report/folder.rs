@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{SUMMARY, summary};
+use super::{PARAMETERS, SUMMARY, summary};
 
 /// Why a report cannot be written where it was asked for.
 #[derive(Debug, Error)]
@@ -126,6 +126,10 @@ fn check(target: &Path) -> Result<(), FolderError> {
         Err(source) => return Err(FolderError::Io { path: target.to_owned(), source }),
     };
     let empty = entries.into_iter().next().is_none();
-    let ours = || fs::read_to_string(target.join(SUMMARY)).is_ok_and(|text| summary::is_ours(&text));
-    if empty || ours() { Ok(()) } else { Err(FolderError::Foreign(target.to_owned())) }
+    let ours = |name| fs::read_to_string(target.join(name)).is_ok_and(|text| summary::is_ours(&text));
+    if empty || [SUMMARY, PARAMETERS].into_iter().any(ours) {
+        Ok(())
+    } else {
+        Err(FolderError::Foreign(target.to_owned()))
+    }
 }

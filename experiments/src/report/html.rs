@@ -41,8 +41,9 @@ struct Link {
     href: String,
 }
 
+/// A figure as a page shows it.
 #[derive(Serialize)]
-struct FigureView {
+pub(crate) struct FigureView {
     id: String,
     title: String,
     alt: String,
@@ -95,21 +96,7 @@ fn view(section: &Section<'_>, results: &Results<'_>) -> Result<SectionView> {
     let rows = |figure: Option<&str>| {
         section.findings.iter().filter(|f| f.figure.as_deref() == figure).map(row).collect::<Vec<_>>()
     };
-    let figure = |figure: &Figure| -> Result<FigureView> {
-        let picture = |width| -> Result<Picture> {
-            let uri = |theme| to_svg(figure, width, theme).map(|svg| data_uri(&svg));
-            Ok(Picture { light: uri(Theme::Light)?, dark: uri(Theme::Dark)? })
-        };
-        let panels: Vec<String> = figure.panels.iter().map(|panel| panel.y.label()).collect();
-        Ok(FigureView {
-            id: figure.id.clone(),
-            title: figure.title.clone(),
-            alt: format!("{} over {}", panels.join(", "), figure.x.label()),
-            wide: picture(Width::Wide)?,
-            narrow: picture(Width::Narrow)?,
-            rows: rows(Some(&figure.id)),
-        })
-    };
+    let figure = |figure: &Figure| Ok(FigureView { rows: rows(Some(&figure.id)), ..figure_view(figure)? });
     let mut command =
         format!("cargo run -p experiments -- run {} --seed {}", experiment.id, results.setting.seed);
     if results.setting.seeds != 1 {
@@ -132,6 +119,26 @@ fn view(section: &Section<'_>, results: &Results<'_>) -> Result<SectionView> {
         figures: section.outcome.figures.iter().map(figure).collect::<Result<_>>()?,
         rows: rows(None),
         rows_total: section.findings.len(),
+    })
+}
+
+/// A figure without rows.
+///
+/// # Errors
+/// A figure that cannot be drawn.
+pub(crate) fn figure_view(figure: &Figure) -> Result<FigureView> {
+    let picture = |width| -> Result<Picture> {
+        let uri = |theme| to_svg(figure, width, theme).map(|svg| data_uri(&svg));
+        Ok(Picture { light: uri(Theme::Light)?, dark: uri(Theme::Dark)? })
+    };
+    let panels: Vec<String> = figure.panels.iter().map(|panel| panel.y.label()).collect();
+    Ok(FigureView {
+        id: figure.id.clone(),
+        title: figure.title.clone(),
+        alt: format!("{} over {}", panels.join(", "), figure.x.label()),
+        wide: picture(Width::Wide)?,
+        narrow: picture(Width::Narrow)?,
+        rows: Vec::new(),
     })
 }
 

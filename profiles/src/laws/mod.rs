@@ -71,7 +71,7 @@ macro_rules! polynomial_law {
 pub(crate) use polynomial_law;
 
 /// A distance, or why there is none.
-fn finite_distance(distance: f64) -> Result<f64, PlanError> {
+pub(crate) fn finite_distance(distance: f64) -> Result<f64, PlanError> {
     if distance.is_finite() { Ok(distance) } else { Err(PlanError::Distance(distance)) }
 }
 
@@ -87,7 +87,7 @@ fn speed_within(which: &'static str, value: f64, velocity: Interval) -> Result<f
 }
 
 /// A limit that must be finite.
-fn finite_limit(quantity: &'static str, limit: f64) -> Result<f64, PlanError> {
+pub(crate) fn finite_limit(quantity: &'static str, limit: f64) -> Result<f64, PlanError> {
     if limit < f64::INFINITY { Ok(limit) } else { Err(PlanError::Unlimited(quantity)) }
 }
 
@@ -101,7 +101,7 @@ fn symmetric(quantity: &'static str, bounds: Interval) -> Result<f64, PlanError>
 }
 
 /// The symmetric limits of acceleration and jerk.
-fn symmetric_limits(limits: &Limits) -> Result<(f64, f64), PlanError> {
+pub(crate) fn symmetric_limits(limits: &Limits) -> Result<(f64, f64), PlanError> {
     Ok((symmetric("acceleration", limits.acceleration())?, symmetric("jerk", limits.jerk())?))
 }
 
@@ -109,7 +109,7 @@ fn symmetric_limits(limits: &Limits) -> Result<(f64, f64), PlanError> {
 const TIMES: Interval = Interval::new(1e-75, 1e75);
 
 /// A planned time that double precision can hold.
-fn representable(quantity: &'static str, value: f64) -> Result<f64, PlanError> {
+pub(crate) fn representable(quantity: &'static str, value: f64) -> Result<f64, PlanError> {
     if TIMES.contains(value) { Ok(value) } else { Err(PlanError::Range { quantity, value }) }
 }
 

@@ -123,6 +123,12 @@ fn sine_integrals(section: &Section, p: Complex<f64>) -> (Complex<f64>, Complex<
     ((ahead - behind) / (2.0 * i), (ahead + behind) * 0.5)
 }
 
+/// `(e^z - 1) / z`.
+pub(crate) fn phi_1(z: Complex<f64>) -> Complex<f64> {
+    let [phi_1, ..] = phi_functions(z);
+    phi_1
+}
+
 /// `phi_1 ... phi_4` of `z`, with `phi_k(z) = sum of z^n / (n + k)!`.
 fn phi_functions(z: Complex<f64>) -> [Complex<f64>; 4] {
     let [_, one, half, sixth, twenty_fourth] = INVERSE_FACTORIALS;

@@ -1,0 +1,202 @@
+//! A tuning in sentences and tables, for the terminal and the page alike.
+
+use std::f64::consts::TAU;
+
+use optimize::JudgedMove;
+use profiles::Profile;
+use serde::Serialize;
+
+use super::analysis::{Plan, Tuning, class_words, route_words};
+use super::parameters::{About, chosen};
+use crate::number::{short, signed};
+
+/// A table of texts.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Table {
+    pub(super) head: Vec<&'static str>,
+    pub(super) rows: Vec<Vec<String>>,
+}
+
+/// What was read.
+pub(super) fn about(tuning: &Tuning, about: &About) -> String {
+    let [_, command, response] = &about.names;
+    format!(
+        "{}: {} samples of '{command}' and '{response}', {} ms apart",
+        about.file,
+        tuning.sampled.response.len(),
+        short(1e3 * tuning.sampled.period)
+    )
+}
+
+/// What the response is like.
+pub(super) fn response(tuning: &Tuning) -> Vec<String> {
+    let (figures, found) = (&tuning.figures, &tuning.found);
+    let class = class_words(figures.class.as_ref().map(|class| class.class));
+    let resolution = if figures.quantum > 0.0 {
+        format!(", resolution {}", short(figures.quantum))
+    } else {
+        String::new()
+    };
+    let mut lines = vec![format!("response class {class}")];
+    if let Some(gain) = figures.gain.or(found.dc_gain) {
+        lines.push(format!("the response goes {} for 1 of the command", short(gain)));
+    }
+    lines.push(format!("noise {} (standard deviation){resolution}", short(figures.noise)));
+    lines.push(format!("modes from the {}", route_words(found)));
+    lines.push(format!(
+        "they reproduce {} % of it and leave a standard deviation of {}",
+        short(found.fit),
+        short(found.residual)
+    ));
+    lines
+}
+
+pub(super) fn modes(tuning: &Tuning) -> Table {
+    let rows = tuning.found.modes.iter().enumerate().map(|(n, mode)| {
+        let pm = |value: f64, deviation: f64| {
+            format!("{} ± {}", short(value), signed(deviation).trim_start_matches('+'))
+        };
+        let w = mode.mode.angular_frequency();
+        vec![
+            format!("mode {}", n + 1),
+            pm(mode.mode.hz(), mode.frequency_deviation / TAU),
+            pm(w, mode.frequency_deviation),
+            pm(mode.mode.damping_ratio(), mode.damping_deviation),
+            short(mode.amplitude),
+        ]
+    });
+    Table {
+        head: vec!["", "frequency [Hz]", "frequency [rad/s]", "damping ratio", "largest amplitude"],
+        rows: rows.collect(),
+    }
+}
+
+pub(super) fn moves(plan: &Plan) -> Table {
+    let row = |judged: &JudgedMove| {
+        let ms = |seconds: Option<f64>| seconds.map_or("never".to_owned(), |s| short(1e3 * s));
+        vec![
+            judged.kind.name(),
+            short(1e3 * judged.motion.duration()),
+            short(judged.nominal),
+            short(judged.worst),
+            ms(judged.settling),
+            ms(Some(judged.total()).filter(|total| total.is_finite())),
+        ]
+    };
+    Table {
+        head: vec![
+            "move",
+            "duration [ms]",
+            "vibration left",
+            "at worst",
+            "settling [ms]",
+            "at rest after [ms]",
+        ],
+        rows: plan.moves.moves.iter().map(row).collect(),
+    }
+}
+
+pub(super) fn shapers(tuning: &Tuning) -> Table {
+    let percent = |part: f64| format!("{} %", short(100.0 * part));
+    let rows = tuning.shaper.judged.iter().zip(&tuning.shaper.chosen).enumerate().flat_map(
+        |(n, (judged, chosen))| {
+            judged.iter().enumerate().map(move |(at, shaper)| {
+                let mark = if at == *chosen { " *" } else { "" };
+                vec![
+                    format!("mode {}: {}{mark}", n + 1, shaper.name()),
+                    short(1e3 * shaper.train.duration()),
+                    percent(shaper.nominal),
+                    percent(shaper.worst),
+                ]
+            })
+        },
+    );
+    Table { head: vec!["shaper", "duration [ms]", "leaves of a step", "at worst"], rows: rows.collect() }
+}
+
+/// The impulses of the recommended shaper.
+pub(super) fn impulses(tuning: &Tuning) -> Table {
+    let impulses = tuning.shaper.train.impulses().iter().enumerate();
+    let row = |(n, impulse): (usize, &shaping::Impulse)| {
+        vec![format!("impulse {}", n + 1), short(1e3 * impulse.time), short(impulse.amplitude)]
+    };
+    Table { head: vec!["", "time [ms]", "amplitude"], rows: impulses.map(row).collect() }
+}
+
+/// What to do, a sentence each.
+pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
+    let mut lines = Vec::new();
+    let k = short(tuning.deviations);
+    if let Some((plan, best)) = tuning.plan.as_ref().and_then(|plan| Some((plan, plan.moves.best()?))) {
+        let tolerated = short(plan.task.tolerated);
+        let whatever = format!("whatever the modes within {k} standard deviations");
+        lines.push(match best.settling {
+            Some(settling) if settling <= 0.0 => format!(
+                "Move with {}: {} ms, at its end no more than {} is left swinging ({} tolerated), {whatever}.",
+                best.kind.name(),
+                short(1e3 * best.motion.duration()),
+                short(best.worst),
+                tolerated
+            ),
+            Some(settling) => format!(
+                "Move with {}: {} ms, and {} ms until no more than {tolerated} is left swinging, {whatever}.",
+                best.kind.name(),
+                short(1e3 * best.motion.duration()),
+                short(1e3 * settling)
+            ),
+            None => format!(
+                "No move comes to {tolerated} of vibration by itself; {} leaves least: {} at worst.",
+                best.kind.name(),
+                short(best.worst)
+            ),
+        });
+        if let Some(plain) = plan.plain().filter(|plain| plain.kind != best.kind) {
+            let settling = plain.settling.map_or("never settles".to_owned(), |settling| {
+                format!("settles {} ms later", short(1e3 * settling))
+            });
+            lines.push(format!(
+                "The S-curve within the same limits takes {} ms, leaves {} at worst and {settling}.",
+                short(1e3 * plain.motion.duration()),
+                short(plain.worst)
+            ));
+        }
+    }
+    let names: Vec<String> = chosen(tuning).map(|judged| judged.name()).collect();
+    let shaper = &tuning.shaper;
+    let all = if names.len() > 1 { ", one after the other" } else { "" };
+    let falls = if shaper.within { "" } else { ", which is more than tolerated; no shaper here leaves less" };
+    lines.push(format!(
+        "Where the profile cannot be changed, put it through {}{all}: {} ms longer, of a step it leaves {} % of the \
+         vibration at worst ({} % tolerated){falls}.",
+        names.join(" and "),
+        short(1e3 * shaper.train.duration()),
+        short(100.0 * shaper.worst),
+        short(100.0 * tuning.tolerated_part)
+    ));
+    lines
+}
+
+/// A table for the terminal: columns two blanks apart, the numbers to the right.
+pub(super) fn aligned(table: &Table) -> String {
+    let head: Vec<String> = table.head.iter().map(|name| (*name).to_owned()).collect();
+    let lines: Vec<&Vec<String>> = std::iter::once(&head).chain(&table.rows).collect();
+    let width = |column: usize| {
+        lines.iter().filter_map(|line| line.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..head.len()).map(width).collect();
+    let mut text = String::new();
+    for line in lines {
+        let mut row = String::new();
+        for (column, (cell, width)) in line.iter().zip(&widths).enumerate() {
+            let blanks = " ".repeat(width - cell.chars().count());
+            row.push_str(&if column == 0 {
+                format!("  {cell}{blanks}")
+            } else {
+                format!("  {blanks}{cell}")
+            });
+        }
+        text.push_str(row.trim_end());
+        text.push('\n');
+    }
+    text
+}
