@@ -1,5 +1,9 @@
 //! Chains of averages: nothing left of their modes, limits held, never longer than what they replace.
-#![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
+#![expect(
+    clippy::expect_used,
+    clippy::float_cmp,
+    reason = "helpers fail as tests do; ends and scalings are exact"
+)]
 
 mod common;
 
@@ -182,15 +186,23 @@ fn typical(modes: &[(f64, f64)]) -> (Limits, Vec<Mode>) {
 }
 
 #[test]
-fn the_price_of_moves_of_the_bench_is_known() {
-    // 0.1 m within 0.5 m/s, 5 m/s^2, 200 m/s^3: the S-curve takes 0.325 s; with the zero-vibration shaper 0.3875 s for
-    // 8 Hz, 0.35 s for 20 Hz and 0.3375 s for 40 Hz.
-    for (modes, duration) in
-        [(vec![(8.0, 0.02)], 0.3457), (vec![(20.0, 0.02)], 0.350_006), (vec![(40.0, 0.02)], 0.3282)]
-    {
+fn the_durations_of_the_readme_hold() {
+    for (distance, modes, known, pairs) in [
+        (0.1, vec![(8.0, 0.02)], 0.3456, 0.3875),
+        (0.1, vec![(20.0, 0.02)], 0.3500, 0.3500),
+        (0.1, vec![(20.0, 0.0)], 0.3250, 0.3500),
+        (0.1, vec![(40.0, 0.02)], 0.3281, 0.3375),
+        (0.02, vec![(12.0, 0.05)], 0.1851, 0.1957),
+        (0.02, vec![(12.0, 0.05), (27.6, 0.05)], 0.1966, 0.2138),
+    ] {
         let (limits, modes) = typical(&modes);
-        let chain = Any::rest_to_rest(0.1, &limits, &modes).expect("plan");
-        assert!(chain.duration() <= duration, "{}", chain.duration());
+        let chain = Any::rest_to_rest(distance, &limits, &modes).expect("plan");
+        // Four digits are printed.
+        assert!((chain.duration() - known).abs() < 5.1e-5, "{}", chain.duration());
+        let plain = SCurve::rest_to_rest(distance, &limits).expect("plan").duration();
+        let shaped = plain + modes.iter().map(|mode| 0.5 * mode.damped_period()).sum::<f64>();
+        assert!((shaped - pairs).abs() < 5.1e-5, "{shaped}");
+        assert!((chain.duration() - plain - chain.price()).abs() < 1e-15);
     }
 }
 

@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use profiles::{Cursor, Limits, Mode, Profile, PulseTrain, Real, SCurve, Sectioned};
-use shaping::{DelayFilter, DelayLine, DelayLineState, Shaped};
+use shaping::{DelayFilter, DelayLine, DelayLineState, ImpulseTrain, ModeRange, Shaped, Shaper};
 
 fn tick<F: Real>(criterion: &mut Criterion, name: &str) {
     let mode = Mode::from_hz(40.0, 0.02).expect("mode");
@@ -57,5 +57,28 @@ fn shaping(criterion: &mut Criterion) {
     tick::<f32>(criterion, "tick of a delay line, f32");
 }
 
-criterion_group!(benches, shaping, shaped);
+/// Every shaper of the family for one mode, and what is certified about one.
+fn family(criterion: &mut Criterion) {
+    let mode = Mode::from_hz(40.0, 0.1).expect("mode");
+    let mut group = criterion.benchmark_group("family");
+    for (name, shaper) in [
+        ("ZV", Shaper::ZV),
+        ("ZVD", Shaper::ZVD),
+        ("ZVDD", Shaper::ZVDD),
+        ("MZV", Shaper::MZV),
+        ("EI", Shaper::extra_insensitive(0.05)),
+        ("EI, two humps", Shaper::ExtraInsensitive { humps: 2, tolerance: 0.05 }),
+        ("EI, three humps", Shaper::ExtraInsensitive { humps: 3, tolerance: 0.05 }),
+        ("unity-magnitude ZV", Shaper::UNITY_MAGNITUDE_ZV),
+        ("unity-magnitude ZVD", Shaper::UNITY_MAGNITUDE_ZVD),
+    ] {
+        group.bench_function(name, |b| b.iter(|| black_box(shaper).train::<5>(black_box(mode))));
+    }
+    let zvd: ImpulseTrain<3> = Shaper::ZVD.train(mode).expect("train");
+    let range = ModeRange::around(mode, 0.1, 0.05).expect("range");
+    group.bench_function("worst case of ZVD, 10 % off", |b| b.iter(|| zvd.worst_case(black_box(&range))));
+    group.finish();
+}
+
+criterion_group!(benches, shaping, shaped, family);
 criterion_main!(benches);

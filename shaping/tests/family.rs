@@ -374,7 +374,7 @@ fn what_damping_allows_no_longer_is_an_error_with_the_damping() {
         let error = at(z).expect_err("too much");
         assert!(
             matches!(error, ShaperError::Damping { damping_ratio, reached }
-                if damping_ratio == z && (0.6..0.694).contains(&reached)),
+                if (damping_ratio - z).abs() < 1e-15 && (0.6..0.694).contains(&reached)),
             "{error}"
         );
     }

@@ -6,6 +6,11 @@ use crate::complex;
 use crate::polynomial::response::phi_1;
 use crate::quantities::{Mode, Real};
 
+/// The most damped periods of an average: each takes two more steps.
+const MOST_PERIODS: f64 = 4.0;
+/// The most steps of an average.
+pub(super) const MOST_STEPS: usize = 9;
+
 /// One part of a chain: the motion behind it is the weighted mean of the motion before it over some time back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -15,15 +20,17 @@ pub enum Link {
         /// Length, s.
         length: f64,
     },
-    /// The average over one damped period, the older half weighted by `decay`: it leaves nothing of a mode, and limits a
-    /// derivative as well.
+    /// The average over whole damped periods, every half of one weighted by `decay` relative to the half after it: it leaves
+    /// nothing of a mode, and limits a derivative as well.
     ///
-    /// It is the average with the weight `e^(-z w t)` taken in two steps, with the zero exactly where that has it. Its
-    /// peak is lower, `2 / (1 + K)` over the period, and what it makes of a polynomial are polynomials.
+    /// It is the average with the weight `e^(-z w t)` taken in steps of half a period, with the zero exactly where that has
+    /// it. Its peak is lower, and what it makes of a polynomial are polynomials.
     Damped {
-        /// Length, one damped period of the mode, s.
-        length: f64,
-        /// Weight of the older half relative to the newer, `K = e^(-pi z / sqrt(1 - z^2))`.
+        /// Damped period of the mode, s.
+        period: f64,
+        /// How many of them it is long.
+        periods: u32,
+        /// Weight of a half period relative to the one after it, `K = e^(-pi z / sqrt(1 - z^2))`.
         decay: f64,
         /// Index of the mode of which nothing is left.
         mode: usize,
@@ -41,9 +48,21 @@ pub enum Link {
 }
 
 impl Link {
-    /// The average that leaves nothing of `mode`, which has this index.
-    pub(super) fn damped(mode: Mode, index: usize) -> Self {
-        Self::Damped { length: mode.damped_period(), decay: half_turn(mode), mode: index }
+    /// The shortest average that leaves nothing of `mode`, which has this index, and limits a derivative at least as much
+    /// as a plain one of `length` s; `None` where damping weights the periods so unevenly that none does.
+    pub(super) fn damped(mode: Mode, index: usize, length: f64) -> Option<Self> {
+        let (period, decay) = (mode.damped_period(), half_turn(mode));
+        let periods = if decay < 1.0 {
+            let left = 1.0 - 2.0 * (1.0 - decay) * length / period;
+            // Written so that a logarithm of nothing or less is none.
+            Real::ln(left.max(0.0)) / (2.0 * Real::ln(decay))
+        } else {
+            length / period
+        };
+        let most = if decay < 1.0 { MOST_PERIODS } else { f64::from(u32::MAX) };
+        // A whole number but for rounding is one.
+        let periods = Real::ceil(periods * (1.0 - 4.0 * f64::EPSILON)).max(1.0);
+        (periods <= most).then_some(Self::Damped { period, periods: periods as u32, decay, mode: index })
     }
 
     /// The pair that leaves nothing of `mode`, which has this index.
@@ -55,7 +74,8 @@ impl Link {
     #[must_use]
     pub fn duration(&self) -> f64 {
         match *self {
-            Self::Average { length } | Self::Damped { length, .. } => length,
+            Self::Average { length } => length,
+            Self::Damped { period, periods, .. } => f64::from(periods) * period,
             Self::Pair { delay, .. } => delay,
         }
     }
@@ -73,11 +93,33 @@ impl Link {
     /// which are one in sum: bounded for `Re p <= 0`, and the factor by which it multiplies that of a motion.
     #[must_use]
     pub fn response(&self, p: Complex<f64>) -> Complex<f64> {
-        let pair = |delay: f64, decay: f64| (complex::exp(p * delay) + decay) / (1.0 + decay);
         match *self {
             Self::Average { length } => phi_1(p * length),
-            Self::Damped { length, decay, .. } => phi_1(p * (0.5 * length)) * pair(0.5 * length, decay),
-            Self::Pair { delay, decay, .. } => pair(delay, decay),
+            Self::Damped { period, periods, decay, .. } if decay < 1.0 => {
+                // Halves from the newest, which has the longest way to the end.
+                let turn = complex::exp(p * (0.5 * period));
+                let (mut sum, mut weights, mut weight) = (Complex::new(0.0, 0.0), 0.0, 1.0);
+                for _ in 0..2 * periods {
+                    sum = sum * turn + weight;
+                    weights += weight;
+                    weight *= decay;
+                }
+                phi_1(p * (0.5 * period)) * sum / weights
+            }
+            Self::Damped { .. } => phi_1(p * self.duration()),
+            Self::Pair { delay, decay, .. } => (complex::exp(p * delay) + decay) / (1.0 + decay),
+        }
+    }
+
+    /// Inverse of the largest weight of an average, s; zero for a pair, which has no largest.
+    pub(super) fn effective(&self) -> f64 {
+        match *self {
+            Self::Damped { period, periods, decay, .. } if decay < 1.0 => {
+                let halves = (0..2 * periods).fold(0.0, |sum, _| 1.0 + decay * sum);
+                0.5 * period * halves
+            }
+            Self::Pair { .. } => 0.0,
+            _ => self.duration(),
         }
     }
 
@@ -85,7 +127,7 @@ impl Link {
     pub(super) fn knots(&self) -> usize {
         match *self {
             // Without damping the halves are one.
-            Self::Damped { decay, .. } if decay < 1.0 => 3,
+            Self::Damped { periods, decay, .. } if decay < 1.0 => 2 * periods as usize + 1,
             _ => 2,
         }
     }

@@ -25,13 +25,14 @@ const MOST_LINKS: usize = MOST_MODES + 3;
 /// A move from rest to rest that leaves nothing of given modes: a step through a chain of averages, in at most `N`
 /// polynomial sections.
 ///
-/// An S-curve is a step through three plain averages. Here an average over one damped period of a mode takes the place of
+/// An S-curve is a step through three plain averages. Here an average over damped periods of a mode takes the place of
 /// one of them, or a pair of weights half a period apart is added, whichever makes the shorter move; see [`Link`]. The
 /// zero is exact, whatever the damping, and limits of velocity, acceleration and jerk hold. Nothing is searched:
 /// every way to share out the parts has a closed form.
 ///
-/// Room for `N` sections: 23 for one mode, 47 for two, 95 for three, 191 for four; with less, a chain that fits is taken
-/// if there is one. Limits of acceleration and jerk must be symmetric; limits of snap have no meaning for the law.
+/// With room for 15 sections there is a chain for any mode, with 31 for any two, 63 for three and 127 for four. With 23, 47,
+/// 95 and 191 an average over one period can take the place of a plain one; the shortest chain that fits is taken.
+/// Limits of acceleration and jerk must be symmetric; limits of snap have no meaning for the law.
 ///
 /// ```
 /// use profiles::{Chain, Limits, Mode, Profile, SCurve, residual_vibration};
@@ -82,27 +83,17 @@ impl<const N: usize> Chain<N> {
             return Ok(chain);
         }
         let s_curve = SCurve::rest_to_rest(distance, limits)?.duration();
-        let (mut damped, mut pairs) = ([nothing; MOST_MODES], [nothing; MOST_MODES]);
-        for (index, ((average, pair), mode)) in damped.iter_mut().zip(&mut pairs).zip(modes).enumerate() {
-            (*average, *pair) = (Link::damped(*mode, index), Link::pair(*mode, index));
-        }
-        let damped = damped.get(..modes.len()).unwrap_or_default();
-        let pairs = pairs.get(..modes.len()).unwrap_or_default();
         let length = distance.abs();
         let demand = Demand {
             velocity: length / limits.along(distance).velocity().upper,
             acceleration: length / acceleration,
             jerk: length / jerk,
         };
-        let Plan { averaged, plain } = shortest(demand, damped, pairs, N)
-            .map_err(|needed| ChainError::Sections { needed, capacity: N })?;
-        for length in plain {
-            if length > 0.0 {
-                chain.push(Link::Average { length })?;
-            }
-        }
-        for (k, (average, pair)) in damped.iter().zip(pairs).enumerate() {
-            chain.push(if averaged >> k & 1 == 1 { *average } else { *pair })?;
+        let Plan { modes, plain } =
+            shortest(demand, modes, N).map_err(|needed| ChainError::Sections { needed, capacity: N })?;
+        let plain = plain.into_iter().filter(|length| *length > 0.0).map(|length| Link::Average { length });
+        for link in plain.chain(modes.into_iter().flatten()) {
+            chain.push(link)?;
         }
         let step = chain.step(false)?;
         // Every candidate is verified: the weights of each link must add up to one.
@@ -125,13 +116,11 @@ impl<const N: usize> Chain<N> {
     fn push(&mut self, link: Link) -> Result<(), PlanError> {
         representable("average", link.duration())?;
         let after = self.links().iter().filter(|kept| kept.duration() <= link.duration()).count();
-        self.len += 1;
-        if let Some(shifted) = self.links.get_mut(after..self.len) {
-            shifted.rotate_right(1);
-            if let Some(place) = shifted.first_mut() {
-                *place = link;
-            }
+        let mut carried = link;
+        for place in self.links.iter_mut().take(self.len + 1).skip(after) {
+            core::mem::swap(place, &mut carried);
         }
+        self.len += 1;
         Ok(())
     }
 

@@ -1,7 +1,8 @@
 //! The shortest chain within limits.
 
+use super::MOST_MODES;
 use super::link::Link;
-use crate::quantities::Real;
+use crate::quantities::{Mode, Real};
 
 /// Averages that limits of velocity, acceleration and jerk ask for.
 const ROLES: usize = 3;
@@ -29,17 +30,52 @@ struct Given {
 
 impl Given {
     fn of(link: &Link) -> Option<Self> {
-        let Link::Damped { length, decay, .. } = *link else { return None };
-        let spacing = if decay < 1.0 { 0.5 * length } else { length };
-        Some(Self { length, effective: 0.5 * length * (1.0 + decay), spacing })
+        let Link::Damped { period, decay, .. } = *link else { return None };
+        let length = link.duration();
+        let spacing = if decay < 1.0 { 0.5 * period } else { length };
+        Some(Self { length, effective: link.effective(), spacing })
     }
 }
 
-/// A chain to be: which of the modes have averages, and the plain averages.
+/// What may be done about one mode: a pair, or one of the averages that are as long as a part of the S-curve.
+#[derive(Debug, Clone, Copy)]
+struct Choices {
+    links: [Option<Link>; ROLES + 2],
+    now: usize,
+}
+
+impl Choices {
+    fn of(mode: Mode, index: usize, s_curve: [f64; ROLES]) -> Self {
+        let [first, second, third] = s_curve.map(|length| Link::damped(mode, index, length));
+        let mut links = [Some(Link::pair(mode, index)), Link::damped(mode, index, 0.0), third, second, first];
+        // Each once.
+        let mut before = None;
+        for link in &mut links {
+            if *link == before {
+                *link = None;
+            } else if link.is_some() {
+                before = *link;
+            }
+        }
+        Self { links, now: 0 }
+    }
+
+    fn link(&self) -> Option<Link> {
+        self.links.get(self.now).copied().flatten()
+    }
+
+    /// Goes to the next one, and says whether there was one; if not, to the first.
+    fn advance(&mut self) -> bool {
+        let next = (self.now + 1..self.links.len()).find(|k| matches!(self.links.get(*k), Some(Some(_))));
+        self.now = next.unwrap_or(0);
+        next.is_some()
+    }
+}
+
+/// A chain to be: a link for each mode, and the plain averages, zero where there is none.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan {
-    /// Bit by bit whether a mode has an average; else it has a pair.
-    pub(super) averaged: u32,
+    pub(super) modes: [Option<Link>; MOST_MODES],
     pub(super) plain: [f64; ROLES],
 }
 
@@ -47,51 +83,61 @@ pub(super) struct Plan {
 ///
 /// Any three averages bound the peaks of a move: `v <= h/e1`, `a <= h/(e1 e2)`, `j <= c h/(e1 e2 e3)` with `e` the inverse
 /// of an average's largest weight. `c` is 1 where the steps of one average are as far apart as all others are long, and
-/// never more than 2. Each mode gets an average or a pair; each of the three parts goes to one of those averages or to a
+/// never more than 2. Each mode gets a pair or an average; each of the three parts goes to one of those averages or to a
 /// plain one, as short as that allows.
-pub(super) fn shortest(
-    demand: Demand,
-    damped: &[Link],
-    pairs: &[Link],
-    capacity: usize,
-) -> Result<Plan, usize> {
+pub(super) fn shortest(demand: Demand, modes: &[Mode], capacity: usize) -> Result<Plan, usize> {
+    let s_curve = three(demand, 0.0);
+    let mut choices = [None; MOST_MODES];
+    for (index, (choice, mode)) in choices.iter_mut().zip(modes).enumerate() {
+        *choice = Some(Choices::of(*mode, index, s_curve));
+    }
     let mut best: Option<(f64, Plan)> = None;
     let mut fewest = usize::MAX;
-    for averaged in 0..1_u32 << damped.len() {
-        let averages = averaged.count_ones();
-        if averages > MOST_AVERAGES {
-            continue;
-        }
-        let chosen = damped
-            .iter()
-            .zip(pairs)
-            .enumerate()
-            .map(|(k, (average, pair))| if averaged >> k & 1 == 1 { average } else { pair });
-        let modes: f64 = chosen.clone().map(Link::duration).sum();
-        let knots: usize = chosen.clone().map(Link::knots).product();
-        let mut given = [None; MOST_AVERAGES as usize];
-        for (place, link) in given.iter_mut().zip(chosen.filter_map(Given::of)) {
-            *place = Some(link);
-        }
-        sort(&mut given);
-        for free in 0..1_u32 << ROLES {
-            let plain = free.count_ones();
-            if plain + averages < ROLES as u32 || plain + averages > MOST_AVERAGES {
-                continue;
-            }
-            let sections = (knots << plain) - 1;
-            fewest = fewest.min(sections);
-            if sections > capacity {
-                continue;
-            }
-            let Some(plain) = fill(demand, free, &given) else { continue };
-            let duration = modes + plain.iter().sum::<f64>();
-            if best.is_none_or(|(shortest, _)| duration < shortest) {
-                best = Some((duration, Plan { averaged, plain }));
-            }
+    loop {
+        let links = choices.map(|choice| choice.and_then(|choice| choice.link()));
+        consider(demand, links, capacity, &mut best, &mut fewest);
+        // Counts through all choices, the first mode's fastest.
+        if !choices.iter_mut().flatten().any(Choices::advance) {
+            break;
         }
     }
     best.map(|(_, plan)| plan).ok_or(fewest)
+}
+
+/// Takes the shortest chain with these links for the modes if it is shorter than the `best`.
+fn consider(
+    demand: Demand,
+    modes: [Option<Link>; MOST_MODES],
+    capacity: usize,
+    best: &mut Option<(f64, Plan)>,
+    fewest: &mut usize,
+) {
+    let links = modes.iter().flatten();
+    let duration: f64 = links.clone().map(Link::duration).sum();
+    if best.is_some_and(|(shortest, _)| duration >= shortest) {
+        return;
+    }
+    let knots: usize = links.clone().map(Link::knots).product();
+    let mut given = [None; MOST_MODES];
+    given.iter_mut().zip(links.filter_map(Given::of)).for_each(|(place, average)| *place = Some(average));
+    sort(&mut given);
+    let averages = given.iter().flatten().count() as u32;
+    for free in 0..1_u32 << ROLES {
+        let plain = free.count_ones();
+        if plain + averages < ROLES as u32 || plain + averages > MOST_AVERAGES {
+            continue;
+        }
+        let sections = (knots << plain) - 1;
+        *fewest = sections.min(*fewest);
+        if sections > capacity {
+            continue;
+        }
+        let Some(plain) = fill(demand, free, &given) else { continue };
+        let duration = duration + plain.iter().sum::<f64>();
+        if best.is_none_or(|(shortest, _)| duration < shortest) {
+            *best = Some((duration, Plan { modes, plain }));
+        }
+    }
 }
 
 /// The longest first.

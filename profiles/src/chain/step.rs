@@ -1,7 +1,7 @@
 //! A unit step through a chain, as polynomials.
 
-use super::link::Link;
-use crate::quantities::Sample;
+use super::link::{Link, MOST_STEPS};
+use crate::quantities::{Real, Sample};
 
 /// The motion from one knot on, expanded about it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -69,24 +69,40 @@ impl<const N: usize> Step<N> {
     /// An average over `L` is `(R(t) - R(t - L)) / L` with `R` the integral of the position. The links come in order of
     /// length, so that `R` is never much larger than `L` and the difference keeps its digits.
     pub(super) fn through(&self, link: &Link, mirrored: bool) -> Option<Self> {
-        let weights = |decay: f64| if mirrored { [decay, 1.0] } else { [1.0, decay] };
         match *link {
-            Link::Damped { length, decay, .. } if decay < 1.0 => {
-                let [newer, older] = weights(decay).map(|weight| 2.0 * weight / (length * (1.0 + decay)));
-                self.averaged(&[(0.0, newer), (0.5 * length, older - newer), (length, -older)])
+            Link::Damped { period, periods, decay, .. } if decay < 1.0 => {
+                let mut copies = [(0.0, 0.0); MOST_STEPS];
+                let mut weight = 1.0 / link.effective();
+                let mut growth = decay;
+                if mirrored {
+                    weight *= Real::powf(decay, f64::from(2 * periods - 1));
+                    growth = 1.0 / decay;
+                }
+                // From each half period to the next the weight steps by what it grows.
+                let (mut before, mut halves) = (0.0, 0.0);
+                for copy in copies.iter_mut().take(2 * periods as usize) {
+                    *copy = (0.5 * period * halves, weight - before);
+                    (before, weight, halves) = (weight, weight * growth, halves + 1.0);
+                }
+                if let Some(last) = copies.get_mut(2 * periods as usize) {
+                    *last = (0.5 * period * halves, -before);
+                }
+                self.averaged(copies.get(..link.knots())?)
             }
-            Link::Average { length } | Link::Damped { length, .. } => {
+            Link::Average { .. } | Link::Damped { .. } => {
+                let length = link.duration();
                 self.averaged(&[(0.0, 1.0 / length), (length, -1.0 / length)])
             }
             Link::Pair { delay, decay, .. } => {
-                let [now, past] = weights(decay).map(|weight| weight / (1.0 + decay));
-                self.combined(&[(0.0, now), (delay, past)], |knot| knot.motion)
+                let (now, past) = if mirrored { (decay, 1.0) } else { (1.0, decay) };
+                let weights = [(0.0, now / (1.0 + decay)), (delay, past / (1.0 + decay))];
+                self.combined(&weights, |knot| knot.motion)
             }
         }
     }
 
     /// The sum of copies of the integral of the position, each with its delay and weight.
-    fn averaged<const K: usize>(&self, copies: &[(f64, f64); K]) -> Option<Self> {
+    fn averaged(&self, copies: &[(f64, f64)]) -> Option<Self> {
         self.combined(copies, |knot| Sample {
             position: knot.integral,
             velocity: knot.motion.position,
@@ -97,18 +113,16 @@ impl<const N: usize> Step<N> {
     }
 
     /// The sum of copies of what `of` takes from the motion, each with its delay and weight.
-    fn combined<const K: usize>(
-        &self,
-        copies: &[(f64, f64); K],
-        of: impl Fn(&Knot) -> Sample,
-    ) -> Option<Self> {
-        let mut at = copies.map(|(delay, _)| Delayed { delay, passed: 0, since: 0.0 });
+    fn combined(&self, copies: &[(f64, f64)], of: impl Fn(&Knot) -> Sample) -> Option<Self> {
+        let mut all = [Delayed { delay: 0.0, passed: 0, since: 0.0 }; MOST_STEPS];
+        let at = all.get_mut(..copies.len())?;
+        at.iter_mut().zip(copies).for_each(|(copy, (delay, _))| copy.delay = *delay);
         let mut step = Self { knots: [Knot::default(); N], len: 0, last: Knot::default() };
         let mut now = Knot::default();
         loop {
             // Knots of two copies that are one but for rounding are one: a section of a rounding would have peaks of its own.
             let same = 8.0 * f64::EPSILON * now.start;
-            for copy in &mut at {
+            for copy in at.iter_mut() {
                 let left = self.length(copy) - copy.since;
                 if left <= 0.0 || copy.since > 0.0 && left <= same {
                     copy.passed += 1;
