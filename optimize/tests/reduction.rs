@@ -432,3 +432,25 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_highest_degree_is_reduced_too() {
+    let points: Vec<[f64; 2]> = (0..16).map(|k| [f64::from(k), f64::from(k * k % 11)]).collect();
+    let weights: Vec<f64> = (0..16).map(|k| 1.0 + 0.1 * f64::from(k * 7 % 10)).collect();
+    let curve = NurbsCurve::rational_bezier(&points, &weights).expect("valid");
+    for degree in [14, 11, 8, 5, 2, 1] {
+        for weights in [Weights::Ones, Weights::Inner, Weights::Free] {
+            let found = reduced(&curve, degree, weights.clone());
+            println!("{degree} {weights:?}: {:e} {:e}", found.deviation.at_most, found.optimum);
+            // At a hundred-millionth of the size the roundings of such polynomials begin.
+            let rounding = 1e-8 * 15.0;
+            assert!(found.deviation.at_most < 1.02 * found.optimum + rounding, "{degree} {weights:?}");
+        }
+    }
+    let back = reduced(
+        &NurbsCurve::rational_bezier(&points[..13], &weights[..13]).expect("valid").raised(3).expect("valid"),
+        12,
+        Weights::Free,
+    );
+    assert!(back.deviation.at_most < 1e-11, "{:e}", back.deviation.at_most);
+}
