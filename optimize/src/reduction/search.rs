@@ -13,7 +13,7 @@ use crate::cost::Cost;
 const KNOT_GAP: f64 = 1e-4;
 
 /// How far the box of the points reaches beyond the control points of the curve, in the diagonal of theirs.
-const MARGIN: f64 = 0.25;
+const MARGIN: f64 = 0.5;
 
 /// How far weights may go beyond the curve's.
 const WEIGHT_RATIO: f64 = 5.0;
@@ -71,7 +71,7 @@ pub struct ReductionSearch<const D: usize> {
 impl<const D: usize> ReductionSearch<D> {
     /// A search from `curve` to the degree of `start`, which gives what is not freed: its knots, its weights.
     ///
-    /// The box holds the control points of the curve and a quarter of their diagonal on each side, weights from a fifth of
+    /// The box holds the control points of the curve and half of their diagonal on each side, weights from a fifth of
     /// the smallest to five times the largest of the curve over the first, and the whole domain for knots.
     ///
     /// # Errors
