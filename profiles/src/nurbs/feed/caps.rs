@@ -3,14 +3,20 @@
 use alloc::vec::Vec;
 
 use super::FeedLimits;
+use super::block::Block;
+use super::cell::Bounds;
 use super::enclosure::Enclosure;
 use super::path::{Cell, Node, Path};
-use crate::quantities::{Interval, Real};
+use super::steps::{jumps, longest_step};
+use crate::quantities::{Interval, Limits, Real};
 
-/// A cell with what the feed may do on it.
+/// A cell, or a few in sequence, with what the feed may do there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Capped<const D: usize> {
-    pub(super) cell: Cell<D>,
+    /// Way from the start of the curve to the ends, m.
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) bounds: Bounds<D>,
     /// Highest feed by the command, axis velocities, chord error and jumps of the curvature, m/s.
     pub(super) speed: f64,
     /// Highest constant feed: axis accelerations and jerks too, m/s.
@@ -22,24 +28,23 @@ pub(super) struct Capped<const D: usize> {
     pub(super) jerk: [Interval; D],
 }
 
-/// A part of the path between two stops.
-#[derive(Debug, Clone)]
-pub(super) struct Block<const D: usize> {
-    pub(super) cells: Vec<Capped<D>>,
-}
-
-impl<const D: usize> Block<D> {
-    pub(super) fn start(&self) -> f64 {
-        self.cells.first().map_or(0.0, |c| c.cell.start)
-    }
-
-    pub(super) fn end(&self) -> f64 {
-        self.cells.last().map_or(0.0, |c| c.cell.end)
-    }
-
-    /// Index of the cell in which the way `s` lies.
-    pub(super) fn cell_at(&self, s: f64) -> usize {
-        self.cells.partition_point(|c| c.cell.end <= s).min(self.cells.len().saturating_sub(1))
+impl<const D: usize> Capped<D> {
+    /// This one and the next one as one.
+    pub(super) fn joined(self, next: Self) -> Self {
+        let mut jerk = self.jerk;
+        for (own, other) in jerk.iter_mut().zip(next.jerk) {
+            *own = Interval::new(own.lower.max(other.lower), own.upper.min(other.upper));
+        }
+        Self {
+            start: self.start,
+            end: next.end,
+            bounds: self.bounds.joined(&next.bounds),
+            speed: self.speed.min(next.speed),
+            cruise: self.cruise.min(next.cruise),
+            acceleration: self.acceleration.min(next.acceleration),
+            feed_jerk: self.feed_jerk.min(next.feed_jerk),
+            jerk,
+        }
     }
 }
 
@@ -51,7 +56,7 @@ pub(super) fn blocks<const D: usize>(path: &Path<D>, limits: &FeedLimits<D>) -> 
         if node.stop {
             let cells = path.cells.get(first..index).unwrap_or_default();
             let nodes = path.nodes.get(first + 1..index).unwrap_or_default();
-            blocks.push(Block { cells: capped(cells, nodes, limits) });
+            blocks.push(Block::new(capped(cells, nodes, limits)));
             first = index;
         }
     }
@@ -59,69 +64,32 @@ pub(super) fn blocks<const D: usize>(path: &Path<D>, limits: &FeedLimits<D>) -> 
 }
 
 fn capped<const D: usize>(cells: &[Cell<D>], inner: &[Node<D>], limits: &FeedLimits<D>) -> Vec<Capped<D>> {
-    let reach = limits.feed() * limits.period();
+    let jumps = jumps(cells, inner, limits);
     let one = |(index, cell): (usize, &Cell<D>)| {
-        let step = longest_step(cells, index, reach, limits);
-        let jump = jumps_near(cells, inner, cell, reach);
-        cap(cell, step / limits.period(), &jump, limits)
+        let step = longest_step(cells, index, &jumps, limits);
+        let mut reserved = [0.0; D];
+        jumps.iter().for_each(|jump| jump.reserve(cell, &mut reserved));
+        cap(cell, step / limits.period(), &reserved, limits)
     };
     cells.iter().enumerate().map(one).collect()
 }
 
-/// The longest step that keeps the chord error wherever it begins, as long as a part of it lies in the cell, m.
-///
-/// A step of length `l` in the cell meets another one at the distance `d` only if `l > d`, and then may be no longer
-/// than that one allows.
-fn longest_step<const D: usize>(cells: &[Cell<D>], index: usize, reach: f64, limits: &FeedLimits<D>) -> f64 {
-    let Some(cell) = cells.get(index) else { return 0.0 };
-    let mut longest = reach.min(limits.longest_step(cell.bounds.curvature));
-    let (before, after) = cells.split_at(index);
-    for other in before.iter().rev() {
-        let gap = cell.start - other.end;
-        if gap >= longest {
-            break;
-        }
-        longest = longest.min(limits.longest_step(other.bounds.curvature).max(gap));
-    }
-    for other in after.iter().skip(1) {
-        let gap = other.start - cell.end;
-        if gap >= longest {
-            break;
-        }
-        longest = longest.min(limits.longest_step(other.bounds.curvature).max(gap));
-    }
-    longest
-}
-
-/// The sum of all jumps of the second derivative that a period could hold together with a part of the cell, 1/m.
-fn jumps_near<const D: usize>(cells: &[Cell<D>], inner: &[Node<D>], cell: &Cell<D>, reach: f64) -> [f64; D] {
-    let first = cells.partition_point(|c| c.end < cell.start - reach);
-    let mut sum = [0.0; D];
-    let near = cells.iter().zip(inner).skip(first).take_while(|(c, _)| c.end <= cell.end + reach);
-    for (_, node) in near {
-        sum.iter_mut().zip(node.jump).for_each(|(sum, jump)| *sum += jump);
-    }
-    sum
-}
-
-fn cap<const D: usize>(cell: &Cell<D>, by_chord: f64, jump: &[f64; D], limits: &FeedLimits<D>) -> Capped<D> {
-    let feed = limits.feed();
-    let mut speed = by_chord.min(feed);
+fn cap<const D: usize>(
+    cell: &Cell<D>,
+    by_step: f64,
+    reserved: &[f64; D],
+    limits: &FeedLimits<D>,
+) -> Capped<D> {
+    let mut speed = by_step.min(limits.feed());
     let (mut square, mut cube) = (f64::INFINITY, f64::INFINITY);
     let (mut acceleration, mut feed_jerk) = (f64::INFINITY, f64::INFINITY);
-    let mut left = limits.axes().each_ref().map(crate::quantities::Limits::jerk);
+    let mut left = limits.axes().each_ref().map(Limits::jerk);
     let bounds = &cell.bounds;
     let geometry = bounds.tangent.iter().zip(&bounds.bend).zip(&bounds.twist);
-    for (((axis, jerk), jump), ((tangent, bend), twist)) in
-        limits.axes().iter().zip(&mut left).zip(jump).zip(geometry)
+    for (((axis, jerk), reserved), ((tangent, bend), twist)) in
+        limits.axes().iter().zip(&mut left).zip(reserved).zip(geometry)
     {
-        let smaller = jerk.upper.min(-jerk.lower);
-        // Where the curvature jumps the acceleration does: at most half of what the jerk allows in a period.
-        if *jump > 0.0 && smaller < f64::INFINITY {
-            let share = (0.5 * smaller).min(jump * (feed * feed) / limits.period());
-            speed = speed.min(Real::sqrt(share * limits.period() / jump));
-            *jerk = Interval::new(jerk.lower + share, jerk.upper - share);
-        }
+        *jerk = Interval::new(jerk.lower + reserved, jerk.upper - reserved);
         speed = speed.min(most(*tangent, axis.velocity()));
         square = square.min(most(*bend, axis.acceleration()));
         cube = cube.min(most(*twist, *jerk));
@@ -131,7 +99,8 @@ fn cap<const D: usize>(cell: &Cell<D>, by_chord: f64, jump: &[f64; D], limits: &
         feed_jerk = feed_jerk.min(smaller(*jerk) / tangent);
     }
     let cruise = speed.min(Real::sqrt(square)).min(Real::cbrt(cube));
-    Capped { cell: *cell, speed, cruise, acceleration, feed_jerk, jerk: left }
+    let (start, end) = (cell.start, cell.end);
+    Capped { start, end, bounds: *bounds, speed, cruise, acceleration, feed_jerk, jerk: left }
 }
 
 /// The largest factor with which `value` stays within `bounds`.

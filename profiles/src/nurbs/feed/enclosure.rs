@@ -45,6 +45,7 @@ pub(super) struct Enclosure {
 }
 
 impl Enclosure {
+    #[inline]
     pub(super) fn new(lower: f64, upper: f64) -> Self {
         Self { lower, upper }
     }
@@ -66,14 +67,27 @@ impl Enclosure {
     }
 
     /// Whether every number in it lies within `bounds`, up to a few roundings of them; false for NaN.
+    #[inline]
     pub(super) fn is_within(self, bounds: Interval) -> bool {
         const SLACK: f64 = 1.0 + 1e-12;
         self.lower >= bounds.lower * SLACK && self.upper <= bounds.upper * SLACK
     }
 }
 
+// Each one instruction, which a minimum that minds NaN is not.
+#[inline]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline]
+fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
 impl Add for Enclosure {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self::new(self.lower + other.lower, self.upper + other.upper)
     }
@@ -81,6 +95,7 @@ impl Add for Enclosure {
 
 impl Sub for Enclosure {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Self::new(self.lower - other.upper, self.upper - other.lower)
     }
@@ -88,18 +103,20 @@ impl Sub for Enclosure {
 
 impl Mul for Enclosure {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
-        let [a, b] = [self.lower * other.lower, self.lower * other.upper];
-        let [c, d] = [self.upper * other.lower, self.upper * other.upper];
-        Self::new(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        let (a, b) = (self.lower * other.lower, self.lower * other.upper);
+        let (c, d) = (self.upper * other.lower, self.upper * other.upper);
+        Self::new(least(least(a, b), least(c, d)), most(most(a, b), most(c, d)))
     }
 }
 
 impl Mul<f64> for Enclosure {
     type Output = Self;
+    #[inline]
     fn mul(self, factor: f64) -> Self {
         let (a, b) = (self.lower * factor, self.upper * factor);
-        Self::new(a.min(b), a.max(b))
+        Self::new(least(a, b), most(a, b))
     }
 }
 
@@ -109,6 +126,7 @@ impl Scalar for Enclosure {
     fn from_f64(value: f64) -> Self {
         Self::new(value, value)
     }
+    #[inline]
     fn square(self) -> Self {
         let (a, b) = (self.lower * self.lower, self.upper * self.upper);
         let least = if self.lower <= 0.0 && self.upper >= 0.0 { 0.0 } else { a.min(b) };

@@ -7,8 +7,9 @@ use crate::section::Sectioned;
 
 /// A motion law by which a feed changes.
 ///
-/// A change of speed must be monotone, begin and end without acceleration where it is continuous, and with symmetric
-/// limits be symmetric about its middle, so that it covers its duration times the mean of its speeds.
+/// A change of speed must begin and end without acceleration where that is continuous, and with symmetric limits be
+/// symmetric about its middle, so that it covers its duration times the mean of its speeds. In each of its sections speed
+/// and jerk must be monotone; so must those of a move.
 pub trait FeedLaw: Sectioned + Clone {
     /// Whether the acceleration of the law is continuous; if not, it is no law for axes with a limit of jerk.
     const CONTINUOUS: bool;

@@ -1,11 +1,13 @@
 //! A feed along a curve: look-ahead over all of it, and the motion of every axis at every tick.
 
+mod block;
 mod caps;
 mod cell;
 mod check;
 mod coordinates;
 mod enclosure;
 mod error;
+mod grid;
 mod jet;
 mod law;
 mod limits;
@@ -16,6 +18,7 @@ mod profile;
 mod ramp;
 mod report;
 mod sample;
+mod steps;
 
 pub use coordinates::{AxisMotion, CoordinateList};
 pub use error::FeedError;
@@ -151,10 +154,17 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
 
     /// The motion at a place along the curve.
     fn at(&self, time: f64, along: Sample) -> FeedSample<D> {
-        let parameter = self.arc.parameter_at(along.position);
-        let curve = self.curve();
-        let mut sample = FeedSample::new(time, along, parameter, curve.by_length(parameter, Side::After));
-        sample.position = curve.point(parameter);
-        sample
+        let (curve, cell) = (self.curve(), self.path.cells.get(self.path.cell_at(along.position)));
+        let mut parameter = self.arc.parameter_at(along.position);
+        let mut side = Side::After;
+        // Where two cells meet rounding must not choose the side: at a corner it is the one ahead.
+        if let Some(cell) = cell {
+            parameter = parameter.clamped(cell.from, cell.to);
+            if parameter >= cell.to || along.position >= cell.end {
+                (parameter, side) = (cell.to, Side::Before);
+            }
+        }
+        let derivatives = curve.by_length(parameter, side);
+        FeedSample::new(time, along, parameter, derivatives, || curve.point(parameter))
     }
 }

@@ -14,9 +14,6 @@ const MOST_CELLS: usize = 1 << 17;
 /// Cells of a curve at least, so that ramps find places to begin and to end at.
 const LEAST_CELLS: f64 = 96.0;
 
-/// How much of a limit a derivative may take before it has to be known well.
-const UNFELT: f64 = 0.05;
-
 /// Angle from which on a bend at a knot is a corner, rad: less is rounding of the curve.
 const CORNER_ANGLE: f64 = 1e-9;
 
@@ -26,8 +23,9 @@ const POINT: f64 = 1e-13;
 /// A piece of the curve with its bounds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell<const D: usize> {
-    /// Parameter of the end.
-    to: f64,
+    /// Parameters of the ends.
+    pub(super) from: f64,
+    pub(super) to: f64,
     /// Arc length from the start of the curve to the ends, m.
     pub(super) start: f64,
     pub(super) end: f64,
@@ -64,7 +62,7 @@ impl<const D: usize> Path<D> {
         for piece in pieces {
             let mut waiting = alloc::vec![piece];
             let mut joint = true;
-            while let Some(piece) = waiting.pop() {
+            while let Some(mut piece) = waiting.pop() {
                 match piece.look(&resolution) {
                     Verdict::Bounded(bounds) => {
                         builder.add(piece.to, bounds, joint);
@@ -119,10 +117,11 @@ impl<const D: usize> Builder<'_, D> {
             Some(before) if joint => self.joint(before.to),
             Some(_) => Node { stop: false, ..Node::STOP },
         };
-        let start = self.path.cells.last().map_or(0.0, |cell| cell.end);
+        let from = self.arc.curve().domain().lower;
+        let (from, start) = self.path.cells.last().map_or((from, 0.0), |cell| (cell.to, cell.end));
         self.singular = false;
         self.path.nodes.push(node);
-        self.path.cells.push(Cell { to, start, end: self.arc.length_at(to), bounds });
+        self.path.cells.push(Cell { from, to, start, end: self.arc.length_at(to), bounds });
     }
 
     /// A point without direction: the cell before it goes on to it, or the cell after it begins with it.
@@ -148,19 +147,15 @@ impl<const D: usize> Builder<'_, D> {
     }
 }
 
-/// How well derivatives must be known: well where they take more than a small part of a limit at full feed.
-fn resolution<const D: usize>(polygon: f64, limits: &FeedLimits<D>) -> Resolution {
+/// How well derivatives must be known on a curve with a control polygon of this length, m.
+fn resolution<const D: usize>(polygon: f64, limits: &FeedLimits<D>) -> Resolution<D> {
     let smaller = |bounds: Interval| bounds.upper.min(-bounds.lower);
-    let feed = limits.feed();
-    let least = |of: fn(&crate::quantities::Limits) -> Interval| {
-        limits.axes().iter().map(of).map(smaller).fold(f64::INFINITY, f64::min)
-    };
-    let (acceleration, jerk) = (least(|axis| axis.acceleration()), least(|axis| axis.jerk()));
-    let step = feed * limits.period();
-    let by_chord = 8.0 * limits.chord_error() / (step * step);
+    let period = limits.period();
     Resolution {
-        bend: UNFELT * by_chord.min(acceleration / (feed * feed)),
-        twist: UNFELT * jerk / (feed * feed * feed),
+        acceleration: limits.axes().each_ref().map(|axis| smaller(axis.acceleration())),
+        jerk: limits.axes().each_ref().map(|axis| smaller(axis.jerk())),
+        chord: 8.0 * limits.chord_error() / (period * period),
+        feed: limits.feed(),
         longest: polygon / LEAST_CELLS,
         shortest: polygon * POINT,
     }

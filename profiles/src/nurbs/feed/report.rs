@@ -6,9 +6,6 @@ use crate::quantities::{Interval, Limits};
 /// A limit counts as reached from this part of it on.
 const REACHED: f64 = 0.95;
 
-/// Steps below this part of the longest one are left out of the fluctuation: they are roundings of the way.
-const SHORT: f64 = 0.01;
-
 /// A largest value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -27,8 +24,8 @@ pub struct FeedReport<const D: usize> {
     /// Bound of the distance between the curve and the straight lines from tick to tick, m: the largest curvature of the
     /// step times its length squared over eight, the same everywhere on the step.
     pub chord_error: Peak,
-    /// Largest difference between the arc length of a step and that of the feed over the period, as a part of it; steps
-    /// of less than 1 % of the longest are left out.
+    /// Largest difference between the arc length of a step and that of the feed over the period, as a part of the longest
+    /// step.
     pub fluctuation: Peak,
     /// Largest feed, m/s.
     pub feed: Peak,
@@ -84,10 +81,8 @@ impl<const D: usize, L> FeedInterpolator<D, L> {
                 let chord_error = 0.125 * self.path.curvature(way, sample.along.position) * (step * step);
                 report.chord_error.take(chord_error, time, way);
                 used = used.max(chord_error / self.limits.chord_error());
-                if step > SHORT * longest {
-                    let walked = self.arc.length_at(sample.parameter) - self.arc.length_at(last.parameter);
-                    report.fluctuation.take((walked - step).abs() / step, time, way);
-                }
+                let walked = self.arc.length_at(sample.parameter) - self.arc.length_at(last.parameter);
+                report.fluctuation.take((walked - step).abs() / longest, time, way);
                 if used >= REACHED {
                     reached += step;
                 }

@@ -28,14 +28,19 @@ impl<const D: usize> FeedSample<D> {
     /// The sample at a place of the curve, with the curve and its derivatives by arc length there, if it has any:
     ///
     /// `x' = t v`, `x'' = t a + k v^2`, `x''' = t j + 3 k v a + b v^3`
-    pub(super) fn new(time: f64, along: Sample, parameter: f64, curve: Option<[[f64; D]; 4]>) -> Self {
+    pub(super) fn new(
+        time: f64,
+        along: Sample,
+        parameter: f64,
+        curve: Option<[[f64; D]; 4]>,
+        point: impl FnOnce() -> [f64; D],
+    ) -> Self {
         let zero = [0.0; D];
-        let still =
-            Self { time, along, parameter, position: zero, velocity: zero, acceleration: zero, jerk: zero };
         // Where the curve has no direction the feed is at rest.
-        let Some([position, tangent, bend, twist]) = curve else { return still };
+        let [position, tangent, bend, twist] = curve.unwrap_or_else(|| [point(), zero, zero, zero]);
+        let mut sample =
+            Self { time, along, parameter, position, velocity: zero, acceleration: zero, jerk: zero };
         let Sample { velocity: v, acceleration: a, jerk: j, .. } = along;
-        let mut sample = Self { position, ..still };
         let rows = sample.velocity.iter_mut().zip(&mut sample.acceleration).zip(&mut sample.jerk);
         for (((velocity, acceleration), jerk), ((t, k), b)) in rows.zip(tangent.iter().zip(&bend).zip(&twist))
         {

@@ -1,0 +1,1 @@
+//! What the drives get: coordinates and pulses.
