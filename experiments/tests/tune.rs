@@ -73,7 +73,7 @@ fn the_example_gives_its_modes_a_move_and_a_shaper() {
     assert_eq!(found["class"], "C");
     let modes = found["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 2, "{modes:?}");
-    for (mode, (hz, damping)) in modes.iter().zip([(8.0, 0.03), (23.0, 0.02)]) {
+    for (mode, (hz, damping)) in modes.iter().zip([(8.0, 0.03), (18.0, 0.02)]) {
         let within = |value: &str, deviation: &str, truth: f64| {
             let (value, deviation) = (number(mode, value), number(mode, deviation));
             assert!((value - truth).abs() < 3.0 * deviation, "{value} ± {deviation}, not {truth}");
@@ -130,7 +130,7 @@ fn the_recommended_move_leaves_less_than_tolerated_on_the_true_axis() {
         text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
     let rest = 8000;
     let mut swing = vec![0.0; rest];
-    for (hz, damping, part) in [(8.0, 0.03, 0.95), (23.0, 0.02, 0.05)] {
+    for (hz, damping, part) in [(8.0, 0.03, 0.7), (18.0, 0.02, 0.3)] {
         let mode = Mode::from_hz(hz, damping).unwrap();
         let (w, z) = (mode.angular_frequency(), mode.damping_ratio());
         let load = TransferFunction::from_coefficients(&[part * w * w], &[1.0, 2.0 * z * w, w * w]).unwrap();
