@@ -10,6 +10,7 @@ use super::shapers::{all_together, kinds};
 
 /// What a move has to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MoveTask {
     /// Signed distance, m.
     pub distance: f64,
