@@ -1,7 +1,7 @@
 //! Writes `experiments/data/example-log.csv`, the log of the README's walk-through: an axis is sent 0.1 m forth and back
-//! by S-curves, and the load on it is read by an encoder.
+//! by S-curves with a high jerk, and the load on it is read by an encoder.
 //!
-//! The load swings at 8 Hz with a damping ratio of 0.03, and the frame under the axis adds a little at 23 Hz with 0.02.
+//! The load swings at 8 Hz with a damping ratio of 0.03, and the frame under the axis adds a part at 18 Hz with 0.02.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -22,9 +22,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn log() -> Result<String, Box<dyn std::error::Error>> {
-    let forth = SCurve::rest_to_rest(0.1, &Limits::new(0.5, 5.0, 200.0)?)?;
+    let forth = SCurve::rest_to_rest(0.1, &Limits::new(0.5, 5.0, 5000.0)?)?;
     let command = |t: f64| forth.sample(t - 0.1).position - forth.sample(t - 2.1).position;
-    let mut load = [(8.0, 0.03, 0.95), (23.0, 0.02, 0.05)]
+    let mut load = [(8.0, 0.03, 0.7), (18.0, 0.02, 0.3)]
         .into_iter()
         .map(|(hz, damping, part)| {
             let mode = Mode::from_hz(hz, damping)?;

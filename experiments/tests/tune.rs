@@ -43,7 +43,11 @@ fn parameters(out: &Path) -> Value {
 }
 
 fn number(value: &Value, path: &str) -> f64 {
-    value.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} in {value}"))
+    value.pointer(path).and_then(Value::as_f64).unwrap_or(f64::NAN)
+}
+
+fn count(value: &Value, path: &str) -> Option<u64> {
+    value.pointer(path).and_then(Value::as_u64)
 }
 
 /// The example's lines of data with another head.
@@ -73,7 +77,7 @@ fn the_example_gives_its_modes_a_move_and_a_shaper() {
     assert_eq!(found["class"], "C");
     let modes = found["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 2, "{modes:?}");
-    for (mode, (hz, damping)) in modes.iter().zip([(8.0, 0.03), (23.0, 0.02)]) {
+    for (mode, (hz, damping)) in modes.iter().zip([(8.0, 0.03), (18.0, 0.02)]) {
         let within = |value: &str, deviation: &str, truth: f64| {
             let (value, deviation) = (number(mode, value), number(mode, deviation));
             assert!((value - truth).abs() < 3.0 * deviation, "{value} ± {deviation}, not {truth}");
@@ -84,8 +88,7 @@ fn the_example_gives_its_modes_a_move_and_a_shaper() {
     }
     // The first is known to a thousandth.
     assert!(number(&modes[0], "/frequency_deviation_hz") < 8e-3);
-    assert_eq!(found["lines_left_out"], Value::Null);
-    assert_eq!(number(&found, "/log/lines_left_out"), 0.0);
+    assert_eq!(count(&found, "/log/lines_left_out"), Some(0));
     assert!(found["shaper"]["within"].as_bool().unwrap() && number(&found, "/shaper/worst_part") <= 0.05);
 
     let mut files: Vec<String> =
@@ -118,7 +121,7 @@ fn the_recommended_move_leaves_less_than_tolerated_on_the_true_axis() {
     let (tolerated, best) = (number(&found, "/move/tolerated"), &found["move"]["candidates"][0]);
     assert!((tolerated - 1e-4).abs() < 1e-6);
     assert_eq!(best["kind"], found["move"]["recommended"]);
-    assert!(number(best, "/worst_vibration") <= tolerated && number(best, "/settling_s") == 0.0);
+    assert!(number(best, "/worst_vibration") <= tolerated && number(best, "/settling_s") <= 0.0);
     let plain = found["move"]["candidates"].as_array().unwrap();
     let plain = plain.iter().find(|candidate| candidate["kind"] == "S-curve").unwrap();
     assert!(number(best, "/total_s") < number(plain, "/total_s"));
@@ -130,7 +133,7 @@ fn the_recommended_move_leaves_less_than_tolerated_on_the_true_axis() {
         text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
     let rest = 8000;
     let mut swing = vec![0.0; rest];
-    for (hz, damping, part) in [(8.0, 0.03, 0.95), (23.0, 0.02, 0.05)] {
+    for (hz, damping, part) in [(8.0, 0.03, 0.7), (18.0, 0.02, 0.3)] {
         let mode = Mode::from_hz(hz, damping).unwrap();
         let (w, z) = (mode.angular_frequency(), mode.damping_ratio());
         let load = TransferFunction::from_coefficients(&[part * w * w], &[1.0, 2.0 * z * w, w * w]).unwrap();
@@ -209,7 +212,7 @@ fn tables_come_in_many_forms() {
         // 50 rad/s, damping ratio 0.04.
         assert!((number(&found, "/modes/0/frequency_rad_s") - 50.0).abs() < 0.05, "{name}: {found}");
         assert!((number(&found, "/modes/0/damping_ratio") - 0.04).abs() < 1e-3, "{name}: {found}");
-        assert_eq!(number(&found, "/log/samples"), 1500.0, "{name}");
+        assert_eq!(count(&found, "/log/samples"), Some(1500), "{name}");
     }
 }
 
@@ -251,7 +254,7 @@ fn lines_that_cannot_be_used_are_named_with_their_number() {
         let (out, done) = tune(&format!("tune-skip-{name}"), line(9 + 1, text), &["--skip-irregular"]);
         assert_eq!(done.code, 0, "{name}: {}", done.err);
         assert!(done.out.contains("line 13 left out: "), "{}", done.out);
-        assert_eq!(number(&parameters(&out), "/log/lines_left_out"), 1.0);
+        assert_eq!(count(&parameters(&out), "/log/lines_left_out"), Some(1));
     }
     // A recorder that was switched off in the middle of its last line.
     let cut = format!("{head}{good}0.3");
@@ -334,7 +337,7 @@ fn uneven_samples_are_said_to_be_put_on_a_grid() {
 fn a_part_of_the_log_is_chosen_by_time() {
     let (out, done) = tune("tune-from", EXAMPLE, &["--to", "1.9"]);
     assert_eq!(done.code, 0, "{}", done.err);
-    assert_eq!(number(&parameters(&out), "/log/samples"), 951.0);
+    assert_eq!(count(&parameters(&out), "/log/samples"), Some(951));
     let (out, done) = tune("tune-to", EXAMPLE, &["--from", "2", "--method", "transfer-function"]);
     assert_eq!(done.code, 0, "{}", done.err);
     assert!((number(&parameters(&out), "/modes/0/frequency_hz") - 8.0).abs() < 0.1);
@@ -361,7 +364,7 @@ fn a_long_log_is_read() {
     let (out, done) = tune("tune-long", with_head_of(step(',', 500_000)), &[]);
     assert_eq!(done.code, 0, "{}", done.err);
     let found = parameters(&out);
-    assert_eq!(number(&found, "/log/samples"), 5e5);
+    assert_eq!(count(&found, "/log/samples"), Some(500_000));
     assert!((number(&found, "/modes/0/frequency_rad_s") - 50.0).abs() < 0.05);
     // Pictures are thinned.
     assert!(std::fs::metadata(out.join("log.csv")).unwrap().len() < 1_000_000);

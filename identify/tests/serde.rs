@@ -51,3 +51,18 @@ fn transfer_functions_spectra_and_filters() {
     assert_eq!(serde_json::from_str::<MovingAverage>(r#"{"length":3}"#).expect("reads").length(), 3);
     assert!(serde_json::from_str::<MovingAverage>(r#"{"length":0}"#).is_err());
 }
+
+#[test]
+fn what_a_log_says_reads_as_written() {
+    let options = identify::LogOptions { most: 2, ..identify::LogOptions::default() };
+    let text = serde_json::to_string(&options).expect("writes");
+    assert_eq!(serde_json::from_str::<identify::LogOptions>(&text).expect("reads"), options);
+    let response: Vec<f64> =
+        (0..600).map(|n| (-0.01 * f64::from(n)).exp() * (0.2 * f64::from(n)).cos()).collect();
+    let log = identify::Log::new(1e-3, &[0.0; 600], &response).expect("valid");
+    let found = identify::identify_log(&log, &options).expect("a mode");
+    let text = serde_json::to_string(&found).expect("writes");
+    let read: identify::LogModes = serde_json::from_str(&text).expect("reads");
+    assert_eq!((read.modes.len(), read.route, read.rests), (1, found.route, found.rests));
+    assert!(serde_json::to_string(&log.figures()).expect("writes").contains("quantum"));
+}

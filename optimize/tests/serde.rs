@@ -175,3 +175,16 @@ fn genetic_options_read_as_written() {
     assert_eq!(partly, GeneticOptions { pool: 0.25, ..GeneticOptions::new(400, 1000) });
     assert!(serde_json::from_str::<GeneticOptions>(r#"{"pools": 0.25}"#).is_err());
 }
+
+#[test]
+fn uncertain_modes_and_tasks_read_as_written_and_bad_ones_are_refused() {
+    let mode = profiles::Mode::new(50.0, 0.03).expect("valid");
+    let mode = optimize::UncertainMode::new(mode, 0.25, 0.001).expect("valid");
+    let text = serde_json::to_string(&mode).expect("writes");
+    assert_eq!(serde_json::from_str::<optimize::UncertainMode>(&text).expect("reads"), mode);
+    assert!(serde_json::from_str::<optimize::UncertainMode>(&text.replace("0.25", "-0.25")).is_err());
+    let limits = profiles::Limits::new(0.5, 5.0, 200.0).expect("valid");
+    let task = optimize::MoveTask { distance: 0.1, limits, tolerated: 1e-4, deviations: 3.0 };
+    let text = serde_json::to_string(&task).expect("writes");
+    assert_eq!(serde_json::from_str::<optimize::MoveTask>(&text).expect("reads"), task);
+}

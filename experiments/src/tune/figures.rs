@@ -57,7 +57,7 @@ fn fit(tuning: &Tuning, [_, _, response]: &[String; 3]) -> Figure {
     let left = Quantity::new("left over", "", &y.unit);
     Figure::new("fit", "The response and the modes found in it", Quantity::time())
         .panel(Panel::new(y).line("response", Role::Reference, line(&|p| p.0)).line(
-            "modes",
+            "fit",
             Role::Ours,
             line(&|p| p.1),
         ))
@@ -149,7 +149,7 @@ fn sensitivity(tuning: &Tuning, plan: &Plan) -> Figure {
                 mode.participation() * judged.motion.response(pole).norm() / pole.im
             });
             // A zero has no place on an axis of decades.
-            amplitudes.sum::<f64>().max(1e-4 * plan.task.tolerated)
+            amplitudes.sum::<f64>().max(1e-2 * plan.task.tolerated)
         };
         panel = panel.line(&judged.kind.name(), role, over_errors(left));
     }

@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use identify::Route;
+use optimize::MoveKind;
 use profiles::{Limits, write_csv};
 use thiserror::Error;
 
@@ -64,19 +65,19 @@ pub struct Arguments {
     #[arg(long, value_name = "METHOD", default_value = "either")]
     method: Method,
     /// Length of the move to recommend, in the unit of the command; needs the three limits
-    #[arg(long, value_name = "D", allow_negative_numbers = true, requires_all = ["max_velocity", "max_acceleration", "max_jerk"])]
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
     distance: Option<f64>,
     /// Largest velocity of the move, in the unit of the command per second
-    #[arg(long, value_name = "V", requires = "distance")]
+    #[arg(long, value_name = "V")]
     max_velocity: Option<f64>,
     /// Largest acceleration of the move
-    #[arg(long, value_name = "A", requires = "distance")]
+    #[arg(long, value_name = "A")]
     max_acceleration: Option<f64>,
     /// Largest jerk of the move
-    #[arg(long, value_name = "J", requires = "distance")]
+    #[arg(long, value_name = "J")]
     max_jerk: Option<f64>,
     /// Amplitude of vibration that counts as rest, in the unit of the response [default: a thousandth of the move]
-    #[arg(long, value_name = "X", requires = "distance")]
+    #[arg(long, value_name = "X")]
     tolerated_vibration: Option<f64>,
     /// Part of the vibration of a step that a shaper may leave
     #[arg(long, value_name = "PART", default_value_t = 0.05)]
@@ -85,7 +86,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 3.0)]
     deviations: f64,
     /// Time between rows of the move's table, s [default: that between samples of the log]
-    #[arg(long, value_name = "S", requires = "distance")]
+    #[arg(long, value_name = "S")]
     tick: Option<f64>,
     /// Folder of the report [default: target/tune of the workspace]
     #[arg(long, value_name = "DIR")]
@@ -155,7 +156,8 @@ pub fn run(arguments: &Arguments, root: &Path, typed: &str, out: &mut dyn Write)
     }
     write!(out, "\n{}", words::aligned(&words::modes(&tuning)))?;
     if let Some(plan) = &tuning.plan {
-        write!(out, "\n{}", words::aligned(&words::moves(plan)))?;
+        let few = words::shortened(words::moves(plan), 4, &MoveKind::SCurve.name());
+        write!(out, "\n{}", words::aligned(&few))?;
     }
     writeln!(out, "\n{}", words::answer(&tuning).join("\n"))?;
     writeln!(out, "{}", folder.join(PAGE).display())?;
@@ -187,8 +189,24 @@ impl Arguments {
                 Err(RequestError(format!("{name} must be positive and finite, got {value}")))
             }
         };
-        let wanted = match (self.distance, self.max_velocity, self.max_acceleration, self.max_jerk) {
-            (Some(distance), Some(velocity), Some(acceleration), Some(jerk)) => {
+        let asked = [
+            ("--distance", self.distance),
+            ("--max-velocity", self.max_velocity),
+            ("--max-acceleration", self.max_acceleration),
+            ("--max-jerk", self.max_jerk),
+        ];
+        let missing: Vec<&str> =
+            asked.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect();
+        let rest = [("--tolerated-vibration", self.tolerated_vibration), ("--tick", self.tick)];
+        let given = asked.iter().chain(&rest).find(|(_, value)| value.is_some());
+        if let (Some((name, _)), false) = (given, missing.is_empty()) {
+            return Err(RequestError(format!(
+                "{name} asks for a move, which needs {} too",
+                missing.join(", ")
+            )));
+        }
+        let wanted = match asked.map(|(_, value)| value) {
+            [Some(distance), Some(velocity), Some(acceleration), Some(jerk)] => {
                 positive("the length of --distance", distance.abs())?;
                 positive("--max-velocity", velocity)?;
                 positive("--max-acceleration", acceleration)?;

@@ -94,7 +94,9 @@ pub fn read(path: &Path, reading: &Reading) -> Result<LogFile, LogFileError> {
         match sample(&record, &layout, unit, previous) {
             Ok(None) => {}
             Ok(Some([time, command, response])) => {
-                (log.time.push(time), log.command.push(command), log.response.push(response));
+                log.time.push(time);
+                log.command.push(command);
+                log.response.push(response);
             }
             Err(problem) if reading.skip_irregular => {
                 const SHOWN: usize = 100;

@@ -21,7 +21,7 @@ pub struct Sampled {
 /// The samples of a log between two times, evenly spaced.
 ///
 /// Samples that lie on an even grid to a hundredth of its distance, or to the last digit in which times are printed, are
-/// taken as they are. Others are put on a grid of the median distance by straight lines.
+/// taken as they are. Others are put on a grid of the mean distance by straight lines.
 ///
 /// # Errors
 /// Fewer than 64 samples between the two times; a gap of more than four distances.
@@ -53,16 +53,15 @@ pub fn evenly(log: &LogFile, from: Option<f64>, to: Option<f64>) -> Result<Sampl
     if off <= (0.01 * even).max(1.001 * rounded) {
         return Ok(Sampled { start, period: even, command, response, remark: None });
     }
-    let count = ((last - start) / median * (1.0 + 1e-12)).floor() as usize + 1;
-    let [command, response] = [command, response].map(|values| lines(&time, &values, start, median, count));
+    let [command, response] = [command, response].map(|values| lines(&time, &values, start, even));
     let (least, most) = (sorted.first().copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0));
     let remark = format!(
         "samples lie {} s to {} s apart: put on a grid of {} s by straight lines",
         crate::number::short(least),
         crate::number::short(most),
-        crate::number::short(median)
+        crate::number::short(even)
     );
-    Ok(Sampled { start, period: median, command, response, remark: Some(remark) })
+    Ok(Sampled { start, period: even, command, response, remark: Some(remark) })
 }
 
 /// The power of ten of the last digit that any of the first times needs, s.
@@ -80,10 +79,10 @@ fn last_digit(time: &[f64]) -> f64 {
     10f64.powi(-digits)
 }
 
-/// Values on the straight lines between samples at `start`, `start + period` and so on.
-fn lines(time: &[f64], values: &[f64], start: f64, period: f64, count: usize) -> Vec<f64> {
+/// As many values as samples, on the straight lines between them at `start`, `start + period` and so on.
+fn lines(time: &[f64], values: &[f64], start: f64, period: f64) -> Vec<f64> {
     let mut at = 0;
-    (0..count)
+    (0..time.len())
         .map(|n| {
             let t = start + n as f64 * period;
             while at + 2 < time.len() && time[at + 1] <= t {

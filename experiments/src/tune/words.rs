@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::analysis::{Plan, Tuning, class_words, route_words};
 use super::parameters::{About, chosen};
-use crate::number::{short, signed};
+use crate::number::short;
 
 /// A table of texts.
 #[derive(Clone, Debug, Serialize)]
@@ -38,8 +38,13 @@ pub(super) fn response(tuning: &Tuning) -> Vec<String> {
         String::new()
     };
     let mut lines = vec![format!("response class {class}")];
-    if let Some(gain) = figures.gain.or(found.dc_gain) {
-        lines.push(format!("the response goes {} for 1 of the command", short(gain)));
+    match figures.gain.or(found.dc_gain) {
+        // An accelerometer, say.
+        Some(gain) if figures.class.is_none() && gain.abs() < 0.01 => {
+            lines.push("after a move the response is where it was before".to_owned());
+        }
+        Some(gain) => lines.push(format!("the response goes {} for 1 of the command", short(gain))),
+        None => {}
     }
     lines.push(format!("noise {} (standard deviation){resolution}", short(figures.noise)));
     lines.push(format!("modes from the {}", route_words(found)));
@@ -51,11 +56,18 @@ pub(super) fn response(tuning: &Tuning) -> Vec<String> {
     lines
 }
 
+/// A number to two digits of its deviation.
+fn pm(value: f64, deviation: f64) -> String {
+    if !(deviation > 0.0 && deviation.is_finite()) {
+        return short(value);
+    }
+    let decimals = (1.0 - deviation.log10().floor()).clamp(0.0, 12.0) as usize;
+    format!("{value:.decimals$} ± {deviation:.decimals$}")
+}
+
+/// The modes with their deviations.
 pub(super) fn modes(tuning: &Tuning) -> Table {
     let rows = tuning.found.modes.iter().enumerate().map(|(n, mode)| {
-        let pm = |value: f64, deviation: f64| {
-            format!("{} ± {}", short(value), signed(deviation).trim_start_matches('+'))
-        };
         let w = mode.mode.angular_frequency();
         vec![
             format!("mode {}", n + 1),
@@ -77,7 +89,8 @@ pub(super) fn moves(plan: &Plan) -> Table {
         vec![
             judged.kind.name(),
             short(1e3 * judged.motion.duration()),
-            short(judged.nominal),
+            // Roundings of a zero.
+            short(if judged.nominal < 1e-9 * plan.task.tolerated { 0.0 } else { judged.nominal }),
             short(judged.worst),
             ms(judged.settling),
             ms(Some(judged.total()).filter(|total| total.is_finite())),
@@ -130,23 +143,22 @@ pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
     if let Some((plan, best)) = tuning.plan.as_ref().and_then(|plan| Some((plan, plan.moves.best()?))) {
         let tolerated = short(plan.task.tolerated);
         let whatever = format!("whatever the modes within {k} standard deviations");
+        let name = best.kind.name();
         lines.push(match best.settling {
             Some(settling) if settling <= 0.0 => format!(
-                "Move with {}: {} ms, at its end no more than {} is left swinging ({} tolerated), {whatever}.",
-                best.kind.name(),
+                "Recommended move: {name}, {} ms; at its end no more than {} is left swinging ({tolerated} tolerated), \
+                 {whatever}.",
                 short(1e3 * best.motion.duration()),
-                short(best.worst),
-                tolerated
+                short(best.worst)
             ),
             Some(settling) => format!(
-                "Move with {}: {} ms, and {} ms until no more than {tolerated} is left swinging, {whatever}.",
-                best.kind.name(),
+                "Recommended move: {name}, {} ms, and {} ms more until no more than {tolerated} is left swinging, \
+                 {whatever}.",
                 short(1e3 * best.motion.duration()),
                 short(1e3 * settling)
             ),
             None => format!(
-                "No move comes to {tolerated} of vibration by itself; {} leaves least: {} at worst.",
-                best.kind.name(),
+                "No move comes to {tolerated} of vibration by itself; {name} leaves least: {} at worst.",
                 short(best.worst)
             ),
         });
@@ -176,6 +188,13 @@ pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
     lines
 }
 
+/// The first rows of a table, and the one of this name.
+pub(super) fn shortened(table: Table, rows: usize, kept: &str) -> Table {
+    let keep = |(n, row): &(usize, Vec<String>)| *n < rows || row.first().is_some_and(|name| name == kept);
+    let rows = table.rows.into_iter().enumerate().filter(keep).map(|(_, row)| row).collect();
+    Table { rows, ..table }
+}
+
 /// A table for the terminal: columns two blanks apart, the numbers to the right.
 pub(super) fn aligned(table: &Table) -> String {
     let head: Vec<String> = table.head.iter().map(|name| (*name).to_owned()).collect();
@@ -199,4 +218,22 @@ pub(super) fn aligned(table: &Table) -> String {
         text.push('\n');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_the_digits_of_its_deviation() {
+        for (value, deviation, text) in [
+            (8.000_12, 0.000_26, "8.00012 ± 0.00026"),
+            (113.13, 1.26, "113.1 ± 1.3"),
+            (0.0195, 0.000_38, "0.01950 ± 0.00038"),
+            (1234.5, 31.0, "1234 ± 31"),
+            (2.5, 0.0, "2.5"),
+        ] {
+            assert_eq!(pm(value, deviation), text);
+        }
+    }
 }

@@ -102,12 +102,20 @@ pub(super) fn decays(log: &Log<'_>, mut rests: Vec<Rest>, noise: f64, quantum: f
 }
 
 /// How many samples pass before a record stays within `threshold` of its end, and the largest distance from there.
+///
+/// Where the last quarter moves by more than that, as noise with a colour and a long record do, it sets the threshold; a
+/// record that hardly decays is kept whole.
 fn swinging(values: &[f64], threshold: f64) -> (usize, f64) {
-    let end = median(last_quarter(values));
-    let last = values.iter().rposition(|y| (y - end).abs() > threshold);
+    let tail = last_quarter(values);
+    let end = median(tail);
+    let most = |values: &[f64]| values.iter().map(|y| (y - end).abs()).fold(0.0, f64::max);
+    let (swing, left) = (most(values), 1.1 * most(tail));
+    if left > threshold && swing < 2.0 * left {
+        return (values.len(), swing);
+    }
+    let last = values.iter().rposition(|y| (y - end).abs() > threshold.max(left));
     // A little more shows the offset.
     let length = last.map_or(0, |last| (last + 1) + (last + 1) / 8 + 16);
-    let swing = values.iter().map(|y| (y - end).abs()).fold(0.0, f64::max);
     (length.min(values.len()), swing)
 }
 
@@ -302,5 +310,11 @@ mod tests {
         assert!((270..=280).contains(&length), "{length}");
         assert!((swing - 1.0).abs() < 1e-6);
         assert_eq!(swinging(&[1.0; 100], 0.1).0, 0);
+        // Noise beyond the threshold in a long rest does not count, a swing that hardly decays does.
+        let noisy: Vec<f64> =
+            values.iter().enumerate().map(|(n, y)| y + 0.02 * f64::from(u8::from(n % 50 == 0))).collect();
+        assert!((200..=280).contains(&swinging(&noisy, 0.01).0));
+        let lasting: Vec<f64> = (0..1000).map(|n| (0.1 * f64::from(n)).cos()).collect();
+        assert_eq!(swinging(&lasting, 0.01).0, 1000);
     }
 }

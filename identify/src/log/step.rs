@@ -61,7 +61,7 @@ impl Step {
         let length = (self.to - self.from).abs();
         // Above the peak-to-peak noise of any record, and a count and a half of the sensor.
         let prominence = (10.0 * noise).max(1.5 * quantum) / length;
-        if !(prominence < 0.5) {
+        if prominence.is_nan() || prominence >= 0.5 {
             return None;
         }
         let values = log.response.get(self.before.end..self.after.end)?;

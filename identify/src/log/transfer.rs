@@ -56,10 +56,13 @@ pub(super) fn transfers(log: &Log<'_>) -> Result<Transfers, LogError> {
     /// Standard deviation over that of the best model up to which another one is a view of the log as well.
     const SIMILAR: f64 = 1.25;
     let block = log.response.len().div_ceil(MOST);
-    let averaged = |values: &[f64]| -> Vec<f64> {
-        values.chunks_exact(block).map(|chunk| chunk.iter().map(|x| x / block as f64).sum()).collect()
+    // The axis has stood at the first command: what counts is the distance from there.
+    let start = log.command.first().copied().unwrap_or(0.0);
+    let averaged = |values: &[f64], start: f64| -> Vec<f64> {
+        let mean = |chunk: &[f64]| chunk.iter().map(|x| (x - start) / block as f64).sum();
+        values.chunks_exact(block).map(mean).collect()
     };
-    let (input, output) = (averaged(log.command), averaged(log.response));
+    let (input, output) = (averaged(log.command, start), averaged(log.response, 0.0));
     let period = log.period * block as f64;
     let tried = tried(&input, &output, period, if block > 1 { Hold::First } else { Hold::Zero })?;
 

@@ -41,7 +41,7 @@ impl MoveKind {
 #[non_exhaustive]
 pub enum Motion {
     /// The S-curve.
-    SCurve(SCurve),
+    SCurve(Box<SCurve>),
     /// The S-curve through a train.
     Shaped(Box<Shaped<SCurve, CAPACITY>>),
     /// A step through a chain of averages.
@@ -51,7 +51,7 @@ pub enum Motion {
 impl Motion {
     fn profile(&self) -> &dyn Profile {
         match self {
-            Self::SCurve(profile) => profile,
+            Self::SCurve(profile) => profile.as_ref(),
             Self::Shaped(profile) => profile.as_ref(),
             Self::Chain(profile) => profile.as_ref(),
         }

@@ -10,6 +10,7 @@ use super::shapers::{all_together, kinds};
 
 /// What a move has to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MoveTask {
     /// Signed distance, m.
     pub distance: f64,
@@ -99,7 +100,7 @@ pub fn recommend_move(
         modes.iter().map(|mode| Region::of(mode, deviations)).collect::<Result<_, _>>()?;
     let plain = SCurve::rest_to_rest(task.distance, &task.limits)?;
     let judged = |kind, motion| judged(kind, motion, modes, &regions, tolerated);
-    let without = judged(MoveKind::SCurve, Motion::SCurve(plain));
+    let without = judged(MoveKind::SCurve, Motion::SCurve(Box::new(plain)));
     // What an insensitive shaper may leave of the vibration.
     let part = tolerated / without.worst.max(tolerated);
     let with = candidates(modes, &plain, task, part);

@@ -7,12 +7,31 @@ use super::error::{RecommendError, not_negative};
 
 /// A mode with its uncertainty, as an estimate gives it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMode"))]
 pub struct UncertainMode {
     mode: Mode,
     frequency_deviation: f64,
     damping_deviation: f64,
     participation: f64,
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct UncheckedMode {
+    mode: Mode,
+    frequency_deviation: f64,
+    damping_deviation: f64,
+    participation: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<UncheckedMode> for UncertainMode {
+    type Error = RecommendError;
+    fn try_from(mode: UncheckedMode) -> Result<Self, RecommendError> {
+        Self::new(mode.mode, mode.frequency_deviation, mode.damping_deviation)?
+            .with_participation(mode.participation)
+    }
 }
 
 impl UncertainMode {
@@ -76,7 +95,7 @@ impl Region {
         let (w, z) = (mode.mode.angular_frequency(), mode.mode.damping_ratio());
         let margin = deviations * mode.frequency_deviation;
         let vague = RecommendError::Vague { angular_frequency: w, margin };
-        if !(w - margin >= LEAST * w) {
+        if margin.is_nan() || w - margin < LEAST * w {
             return Err(vague);
         }
         let about = deviations * mode.damping_deviation;

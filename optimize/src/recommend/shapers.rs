@@ -110,7 +110,9 @@ pub fn recommend_shaper(
         let best = chosen_of(&shapers, tolerated)
             .ok_or(RecommendError::NoShaper { angular_frequency: mode.mode().angular_frequency() })?;
         trains.extend(shapers.get(best).map(|shaper| shaper.train));
-        (judged.push(shapers), chosen.push(best), regions.push(region));
+        judged.push(shapers);
+        chosen.push(best);
+        regions.push(region);
     }
     let train = all_together(&trains)?;
     let worst = regions.iter().map(|region| train.worst_case(region.modes()).bound).fold(0.0, f64::max);
