@@ -6,6 +6,7 @@ mod fitness;
 mod genetic;
 mod recommend;
 pub mod reduction;
+pub mod shapers;
 mod simplex;
 mod swarm;
 

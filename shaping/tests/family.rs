@@ -378,6 +378,10 @@ fn what_damping_allows_no_longer_is_an_error_with_the_damping() {
             "{error}"
         );
     }
+    for (humps, there, beyond) in [(2, 0.45, 0.46), (3, 0.32, 0.33)] {
+        let at = |z: f64| (Shaper::ExtraInsensitive { humps, tolerance: 0.05 }).train::<5>(mode(40.0, z));
+        assert!(at(there).is_ok() && at(beyond).is_err(), "{humps}");
+    }
     // Whatever is asked: a train or a reason, and a train holds its conditions.
     for humps in 1..=3 {
         for tolerance in [1e-9, 1e-4, 0.3, 0.999] {

@@ -102,8 +102,9 @@ pub(super) fn zero_vibration<const N: usize>(
         return Err(ShaperError::Order { order, most: N.saturating_sub(1) });
     }
     within(order.saturating_add(1), N)?;
-    let delay = 0.5 * mode.damped_period();
-    let decay = Real::exp(mode.pole().re * delay);
+    let pole = mode.pole();
+    let delay = PI / pole.im;
+    let decay = Real::exp(pole.re * delay);
     let train = (0..order).fold(Spaced::one(), |train, _| train.with_half_turn(decay));
     Ok(train.train(delay)?)
 }
@@ -123,8 +124,9 @@ pub(super) fn equally_spaced<const N: usize>(
         return Err(ShaperError::Span { span, most });
     }
     let turns = span / intervals as f64;
-    let delay = turns * mode.damped_period();
-    let decay = Real::exp(mode.pole().re * delay);
+    let pole = mode.pole();
+    let delay = turns * (TAU / pole.im);
+    let decay = Real::exp(pole.re * delay);
     // Zeros from one turn of the mode, `angle`, to a whole turn less that; the one in the middle has no partner.
     let angle = TAU * turns;
     let apart = 2.0 * (PI - angle) / (intervals - 1) as f64;
