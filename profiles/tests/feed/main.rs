@@ -1,6 +1,7 @@
 //! Feeds along curves: limits hold between the ticks too, steps have the length they should, and no pulse is lost.
 #![cfg(feature = "nurbs")]
 #![expect(clippy::expect_used, reason = "helpers of tests may fail loudly")]
+#![expect(clippy::float_cmp, reason = "ends and peaks are exact")]
 
 mod checks;
 #[path = "../nurbs/curves.rs"]

@@ -1,7 +1,7 @@
 //! Curves whose feed is known by hand.
 
 use profiles::nurbs::{FeedInterpolator, FeedLaw, FeedLimits, NurbsCurve};
-use profiles::{Cosine, FivePhase, Limits, Profile, SCurve, SnapLimited, Trapezoid};
+use profiles::{Cosine, FivePhase, Limits, SCurve, SnapLimited, Trapezoid};
 
 use crate::checks::{chord_error, keeps, limits};
 
