@@ -1,10 +1,10 @@
-//! Points and derivatives of curves, beside the recursion as it is written down in the same run.
+//! Points, derivatives, lengths and bounds of curves, points beside the recursion as it is written down in the same run.
 #![expect(clippy::expect_used, reason = "a bench may fail loudly")]
 
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use profiles::nurbs::{Knots, NurbsCurve};
+use profiles::nurbs::{ArcLength, Knots, NurbsCurve, Side};
 
 /// A rational curve in space with so many control points and uneven knots.
 fn curve(degree: usize, count: u32) -> NurbsCurve<3> {
@@ -71,9 +71,37 @@ fn evaluate(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn geometry(criterion: &mut Criterion) {
+    let cubic = curve(3, 51);
+    let parameters: Vec<f64> = parameters().into_iter().take(256).collect();
+    let path = ArcLength::new(cubic.clone(), 1e-9).expect("table");
+    let mut group = criterion.benchmark_group("nurbs geometry, degree 3");
+    group.bench_function("arc length table of 48 spans", |b| {
+        b.iter(|| ArcLength::new(black_box(&cubic).clone(), 1e-9));
+    });
+    group.bench_function("raise the degree of 48 spans", |b| b.iter(|| black_box(&cubic).raised(1)));
+    group.bench_function("curvature bound of 48 spans", |b| {
+        b.iter(|| black_box(&cubic).curvature_bound(0.0, 1.0))
+    });
+    group.throughput(Throughput::Elements(parameters.len() as u64));
+    group.bench_function("parameter at an arc length", |b| {
+        b.iter(|| {
+            parameters.iter().for_each(|u| _ = black_box(path.parameter_at(black_box(*u) * path.length())))
+        });
+    });
+    group.bench_function("derivatives by arc length", |b| {
+        b.iter(|| parameters.iter().for_each(|u| _ = black_box(cubic.by_length(black_box(*u), Side::After))));
+    });
+    group.bench_function("closest point of 48 spans", |b| {
+        let targets: Vec<[f64; 3]> = parameters.iter().map(|u| [50.0 * u, 5.0 + 3.0 * u, 2.0]).collect();
+        b.iter(|| targets.iter().for_each(|target| _ = black_box(cubic.closest(black_box(*target)))));
+    });
+    group.finish();
+}
+
 criterion_group! {
     name = nurbs;
     config = Criterion::default();
-    targets = evaluate
+    targets = evaluate, geometry
 }
 criterion_main!(nurbs);

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::gauss::Series;
 use super::geometry::{distance, norm};
 use super::reach::Reach;
 use super::{NurbsCurve, NurbsError, Side, gauss};
@@ -43,8 +44,8 @@ struct Piece {
     /// Length before it, and its own, m.
     before: f64,
     length: f64,
-    /// `du/ds` at both ends in units of the mean one, where it is finite.
-    slopes: Option<[f64; 2]>,
+    /// The speed over it, from -1 to 1.
+    speed: Series,
 }
 
 impl<const D: usize> ArcLength<D> {
@@ -86,13 +87,10 @@ impl<const D: usize> ArcLength<D> {
     }
 
     fn push(&mut self, from: f64, to: f64, reach: Reach) {
-        let length = gauss::sixteen(from, to, |u| self.speed(u, Side::After));
-        let length = length.clamped(0.0, reach.most);
-        let slope = |u, side| length / (self.speed(u, side) * (to - from));
-        let slopes = [slope(from, Side::After), slope(to, Side::Before)];
-        // Beyond three the interpolant need not be monotone.
-        let slopes = Some(slopes).filter(|slopes| slopes.iter().all(|m| *m <= 3.0));
-        self.pieces.push(Piece { from, to, before: self.length, length, slopes });
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let speed = Series::new(|x| self.speed(middle + half * x));
+        let length = (half * speed.whole()).clamped(0.0, reach.most);
+        self.pieces.push(Piece { from, to, before: self.length, length, speed });
         self.length += length;
         // All nodes lie in one span: their derivatives are rounded like that of the middle.
         let [_, slope, ..] = self.curve.negligible_derivatives(0.5 * (from + to), Side::After);
@@ -125,7 +123,7 @@ impl<const D: usize> ArcLength<D> {
         let index = self.pieces.partition_point(|piece| piece.from <= u).saturating_sub(1);
         match self.pieces.get(index) {
             Some(piece) if u >= piece.to => piece.before + piece.length,
-            Some(piece) => piece.before + gauss::sixteen(piece.from, u, |u| self.speed(u, Side::After)),
+            Some(piece) => piece.before + gauss::sixteen(piece.from, u, |u| self.speed(u)),
             None => 0.0,
         }
     }
@@ -150,9 +148,10 @@ impl<const D: usize> ArcLength<D> {
             return piece.to;
         }
         let width = piece.to - piece.from;
-        let speed = |u| self.speed(u, Side::After);
+        let speed = |u| self.speed(u);
         let (mut low, mut high) = (piece.from, piece.to);
-        let mut u = piece.from + width * piece.guess(rest / piece.length);
+        let place = piece.speed.place(rest / piece.length);
+        let mut u = (0.5 * (low + high) + 0.5 * width * place).clamped(low, high);
         let mut length = gauss::sixteen(piece.from, u, speed);
         for _ in 0..MOST_STEPS {
             let missing = rest - length;
@@ -161,47 +160,29 @@ impl<const D: usize> ArcLength<D> {
             } else {
                 high = u;
             }
-            if missing.abs() <= f64::EPSILON * piece.length || missing == 0.0 {
-                break;
+            let step = missing / speed(u);
+            if step.abs() <= 1e-8 * width {
+                // The next step would be the square of this one.
+                return (u + step).clamped(low, high);
             }
-            let newton = u + missing / speed(u);
-            let inside = newton > low && newton < high;
-            let next = if inside { newton } else { 0.5 * (low + high) };
+            let next = if u + step > low && u + step < high { u + step } else { 0.5 * (low + high) };
             if next <= low || next >= high {
                 break;
             }
             // A short step is exact to rounding by fewer nodes: the neighbourhood reaches a thousand times further.
-            if (next - u).abs() <= 1e-3 * width {
-                let step = gauss::four(u, next, speed);
-                length += step;
-                if inside && step.abs() <= 1e-9 * piece.length {
-                    // The next step would be the square of this one.
-                    return next;
-                }
+            length = if (next - u).abs() <= 1e-3 * width {
+                length + gauss::four(u, next, speed)
             } else {
-                length = gauss::sixteen(piece.from, next, speed);
-            }
+                gauss::sixteen(piece.from, next, speed)
+            };
             u = next;
         }
         u
     }
 
-    fn speed(&self, u: f64, side: Side) -> f64 {
-        let [_, derivative] = self.curve.derivatives_from::<2>(u, side);
+    fn speed(&self, u: f64) -> f64 {
+        let [_, derivative] = self.curve.derivatives::<2>(u);
         norm(&derivative)
-    }
-}
-
-impl Piece {
-    /// The cubic through the ends of the inverse, from length to parameter, both as parts of the piece.
-    fn guess(&self, x: f64) -> f64 {
-        match self.slopes {
-            Some([start, end]) => {
-                let back = 1.0 - x;
-                (x * x * (3.0 - 2.0 * x) + start * x * back * back - end * x * x * back).clamped(0.0, 1.0)
-            }
-            None => x,
-        }
     }
 }
 

@@ -100,13 +100,15 @@ impl<const D: usize> NurbsCurve<D> {
             } else {
                 high = u;
             }
-            let newton = u - slope / (dot(&first, &first) + dot(&apart, &second));
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let step = (next - u).abs();
-            u = next;
-            if next <= low || next >= high || step <= 0.5 * f64::EPSILON * low.abs().max(high.abs()) {
+            let step = -slope / (dot(&first, &first) + dot(&apart, &second));
+            if step.abs() <= 0.5 * f64::EPSILON * u.abs() {
                 break;
             }
+            let next = if u + step > low && u + step < high { u + step } else { 0.5 * (low + high) };
+            if next <= low || next >= high {
+                break;
+            }
+            u = next;
         }
         u
     }
@@ -135,6 +137,8 @@ struct Part<const D: usize> {
 impl<const D: usize> Part<D> {
     fn new(piece: Piece<D>, halvings: u32) -> Self {
         let (above, below) = (piece.squared_distance(), piece.weight.squared());
+        let missing = above.degree().saturating_sub(below.degree());
+        let below = below.raised(missing);
         let quotients = || above.coefficients().iter().zip(below.coefficients()).map(|(s, w)| s / w);
         let least = quotients().fold(f64::INFINITY, f64::min).max(0.0);
         let rounding = ROUNDING * piece.farthest();

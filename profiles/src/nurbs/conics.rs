@@ -88,10 +88,9 @@ impl<const D: usize> NurbsCurve<D> {
             weights.push(if between { middle } else { 1.0 });
         }
         // A whole turn ends where it starts, which the sine of a rounded angle misses.
-        if (sweep.abs() - TAU).abs() <= 2.0 * f64::EPSILON * TAU {
-            if let (Some(start), Some(end)) = (points.first().copied(), points.last_mut()) {
-                *end = start;
-            }
+        let closed = (sweep.abs() - TAU).abs() <= 2.0 * f64::EPSILON * TAU;
+        if let (true, Some(start), Some(end)) = (closed, points.first().copied(), points.last_mut()) {
+            *end = start;
         }
         let inner: Vec<f64> = (2..count - 1).map(|k| (k / 2) as f64 / pieces).collect();
         Self::with_knots(Knots::clamped(2, 0.0, &inner, 1.0)?, &points, &weights)

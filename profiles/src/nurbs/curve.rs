@@ -40,6 +40,11 @@ const LEAST_RATIO: f64 = 1e-15;
 /// # References
 /// L. Piegl and W. Tiller, The NURBS Book, 2nd ed., Springer, 1997, <https://doi.org/10.1007/978-3-642-59223-2>
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::unchecked::UncheckedCurve", into = "super::unchecked::UncheckedCurve")
+)]
 pub struct NurbsCurve<const D: usize> {
     knots: Knots,
     points: Vec<Homogeneous<D>>,

@@ -122,6 +122,14 @@ pub enum NurbsError {
         /// Upper end.
         upper: f64,
     },
+    /// Two curves with different intervals of the parameter.
+    #[error("the other curve must begin or end at the parameter {expected}, not at {value}")]
+    OtherDomain {
+        /// Where it does.
+        value: f64,
+        /// Where it must.
+        expected: f64,
+    },
     /// A parameter that is not inside the curve.
     #[error("the parameter must lie inside ({lower}, {upper}), got {value}")]
     Parameter {

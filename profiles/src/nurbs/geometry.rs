@@ -7,6 +7,7 @@ use crate::quantities::Real;
 
 /// A place where the direction of a curve jumps.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Corner {
     /// Its parameter, a knot of the curve.
     pub parameter: f64,

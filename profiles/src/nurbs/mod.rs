@@ -8,6 +8,7 @@ mod bounds;
 mod closest;
 mod conics;
 mod curve;
+mod deviation;
 mod error;
 mod evaluate;
 mod feed;
@@ -16,17 +17,21 @@ mod geometry;
 mod homogeneous;
 mod insert;
 mod knots;
+mod motion;
 mod piece;
 mod raise;
 mod reach;
 mod remove;
 mod shape;
+#[cfg(feature = "serde")]
+mod unchecked;
 
 pub use arc_length::ArcLength;
 pub use basis::Basis;
 pub use bezier::BezierSegment;
 pub use closest::Nearest;
 pub use curve::NurbsCurve;
+pub use deviation::Deviation;
 pub use error::NurbsError;
 pub use feed::{
     AxisMotion, CoordinateList, FeedError, FeedInterpolator, FeedLaw, FeedLimits, FeedProfile, FeedReport,

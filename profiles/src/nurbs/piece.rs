@@ -1,7 +1,7 @@
 //! One rational piece as polynomials, in units of its own.
 
-use super::BezierSegment;
 use super::bernstein::Bernstein;
+use super::{BezierSegment, Homogeneous};
 
 /// A Bezier piece moved to the origin, one long and with weights up to one: what is computed from it neither cancels nor
 /// leaves the range, whatever the units of the curve.
@@ -32,17 +32,14 @@ impl<const D: usize> Piece<D> {
         }
         // A piece that is one point, the origin, has no length to measure by.
         let scale = if scale > 0.0 { scale } else { 1.0 };
-        Self {
-            from: segment.from,
-            to: segment.to,
-            scale,
-            weighted: core::array::from_fn(|axis| {
-                let x =
-                    |h: &super::Homogeneous<D>| h.weighted.get(axis).map_or(0.0, |x| x / scale * h.weight);
-                Bernstein::new(moved.iter().map(x))
-            }),
-            weight: Bernstein::new(moved.iter().map(|h| h.weight)),
-        }
+        let weighted = core::array::from_fn(|axis| {
+            let x = |h: &Homogeneous<D>| h.weighted.get(axis).map_or(0.0, |x| x / scale * h.weight);
+            Bernstein::new(moved.iter().map(x))
+        });
+        // A polynomial has the constant one for a weight, in degree zero.
+        let even = moved.iter().all(|h| h.weight >= 1.0);
+        let weight = Bernstein::new(moved.iter().map(|h| h.weight).take(if even { 1 } else { moved.len() }));
+        Self { from: segment.from, to: segment.to, scale, weighted, weight }
     }
 
     /// The squared distance from the origin times the squared weight.
@@ -57,7 +54,8 @@ impl<const D: usize> Piece<D> {
             let x = |x: &Bernstein| x.coefficients().get(index).map_or(0.0, |x| (x / weight) * (x / weight));
             self.weighted.iter().map(x).sum()
         };
-        (0..=self.weight.degree()).map(squared).fold(0.0, f64::max)
+        let degree = self.weighted.first().map_or(0, Bernstein::degree);
+        (0..=degree).map(squared).fold(0.0, f64::max)
     }
 
     /// The halves, in the units of the whole.
@@ -75,9 +73,9 @@ impl<const D: usize> Piece<D> {
 
     /// The derivative by the local parameter, times the squared weight.
     pub(super) fn hodograph(&self) -> [Bernstein; D] {
-        core::array::from_fn(|axis| match self.weighted.get(axis) {
-            Some(x) => x.wronskian(&self.weight),
-            None => self.weight.clone(),
+        self.weighted.each_ref().map(|x| match self.weight.degree() {
+            0 => x.derivative(),
+            _ => x.wronskian(&self.weight),
         })
     }
 }

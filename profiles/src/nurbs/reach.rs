@@ -51,26 +51,28 @@ impl Reach {
         let mut steep = [0.0; PRODUCT];
         for row in &moved {
             let hodograph = wronskian(row, &weight, count);
-            let known = hodograph.get(..2 * count).unwrap_or(&hodograph);
+            let known = hodograph.get(..2 * count - 3).unwrap_or(&hodograph);
             for (k, a) in known.iter().enumerate() {
                 square.iter_mut().skip(k).zip(known).for_each(|(sum, b)| *sum += a * b);
             }
             steep.iter_mut().zip(known).for_each(|(sum, h)| *sum += h.abs());
         }
+        let square = square.get(..4 * count - 7).unwrap_or(&square);
+        let weight = weight.get(..count).unwrap_or(&weight);
         let most = {
-            let (constant, rest) = tail(&weight, 1.0);
+            let (constant, rest) = tail(weight, 1.0);
             let by_series = 2.0 * steep.iter().sum::<f64>() / ((constant - rest) * (constant - rest));
             let by_points = polygon(curve, middle);
             if constant > rest && by_series < by_points { by_series } else { by_points }
         };
         let mut error = most;
         for radius in RADII {
-            let (speed, speed_rest) = tail(&square, radius);
-            let (constant, rest) = tail(&weight, radius);
+            let (speed, speed_rest) = tail(square, radius);
+            let (constant, rest) = tail(weight, radius);
             if speed_rest < 0.9 * speed && rest < 0.9 * constant {
                 let bound = Real::sqrt(speed + speed_rest) / ((constant - rest) * (constant - rest));
                 let axes = radius + Real::sqrt(radius * radius - 1.0);
-                let shrink = libm::pow(axes, f64::from(2 - 2 * gauss::NODES)) / (axes * axes - 1.0);
+                let shrink = libm::pow(axes, 2.0 - 2.0 * gauss::NODES as f64) / (axes * axes - 1.0);
                 let by_rule = 64.0 / 15.0 * bound * shrink;
                 error = if by_rule < error { by_rule } else { error };
                 break;

@@ -113,6 +113,8 @@ fn parameters_that_are_not_there() {
     assert!(matches!(curve.part(-0.5, 0.5).err(), Some(NurbsError::Parameter { .. })));
     assert!(matches!(curve.part(0.5, f64::NAN).err(), Some(NurbsError::Parameter { .. })));
     assert_eq!(curve.part(0.0, 1.0).expect("all"), curve);
+    let longer = curve.with_domain(0.0, 2.0).expect("curve");
+    assert_eq!(curve.deviation(&longer), Err(NurbsError::OtherDomain { value: 2.0, expected: 1.0 }));
     assert!(matches!(curve.with_domain(1.0, 0.0).err(), Some(NurbsError::Domain { .. })));
     assert!(matches!(curve.with_domain(f64::NAN, 1.0).err(), Some(NurbsError::Domain { .. })));
     assert!(matches!(curve.with_domain(1e17, 1e17 + 64.0).err(), Some(NurbsError::Domain { .. })));

@@ -185,7 +185,7 @@ proptest! {
         prop_assert!(bound >= sharpest - rounding, "{} below {}", bound, sharpest);
         prop_assert!(speeds.lower <= slowest * (1.0 + 1e-9) && speeds.upper >= fastest * (1.0 - 1e-9));
         // Samples miss a little of the fastest place.
-        prop_assert!(speeds.upper <= fastest * 1.01, "{:?} and {}", speeds, fastest);
+        prop_assert!(speeds.upper <= fastest * 1.1, "{:?} and {}", speeds, fastest);
         // An arc stays within its curvature's sagitta of its chord.
         let middle = curve.point(0.5 * (from + to));
         let (start, end) = (curve.point(from), curve.point(to));

@@ -10,3 +10,4 @@ mod errors;
 mod evaluation;
 mod exact;
 mod geometry;
+mod no_allocation;
