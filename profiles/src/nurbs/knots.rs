@@ -187,7 +187,9 @@ impl Knots {
     /// `u` brought into the domain; the start for NaN.
     #[inline]
     pub(super) fn within(&self, u: f64) -> f64 {
-        u.clamped(self.lower, self.upper)
+        // As two instructions where a clamp that knows NaN is twenty.
+        let above = if u > self.lower { u } else { self.lower };
+        if above < self.upper { above } else { self.upper }
     }
 
     /// The first of the `degree + 1` control points that act at `u`, a parameter of the domain.
@@ -199,7 +201,8 @@ impl Knots {
             Some([from, to, ..]) => (*from as usize, *to as usize),
             _ => (0, self.inner().len()),
         };
-        let some = self.inner().get(from..to).unwrap_or_default();
+        let offset = self.degree + 1;
+        let some = self.all.get(offset + from..offset + to).unwrap_or_default();
         // Never inside the empty span of a repeated knot, at both ends of the domain neither.
         from + match side {
             Side::Before => some.partition_point(|knot| *knot < u),
@@ -239,7 +242,7 @@ impl Knots {
 /// The part of the domain that `u` lies in; the end is a part of its own.
 #[inline]
 fn part_of(u: f64, lower: f64, parts_per_unit: f64) -> usize {
-    ((u - lower) * parts_per_unit) as usize
+    ((u - lower) * parts_per_unit) as u32 as usize
 }
 
 /// Degrees that fit the buffers.

@@ -25,15 +25,16 @@ const LEAST_PLACES: f64 = 48.0;
 impl<const D: usize> Check<'_, D> {
     /// The fastest way through a grid of places and speeds; `None` where every way through it is too fast.
     pub(super) fn search<L: FeedLaw>(&self) -> Option<Vec<Ramp<L>>> {
-        let lowest = self.block.cells().iter().map(|c| c.cruise).fold(f64::INFINITY, f64::min);
-        let octaves = Real::ln(self.limits.feed() / lowest) / core::f64::consts::LN_2;
+        let caps = || self.block.cells().iter().map(|c| c.cruise);
+        let (lowest, highest) = (caps().fold(f64::INFINITY, f64::min), caps().fold(0.0, f64::max));
+        let octaves = Real::ln(highest / lowest) / core::f64::consts::LN_2;
         // Fine where the time goes, coarse where a bend is so tight that it takes hardly any.
         let coarse = ((octaves - FINE_OCTAVES) / (MOST_LEVELS - FINE_OCTAVES * LEVELS_PER_OCTAVE)).max(1.0);
         let octave = |level: f64| {
             let fine = (level / LEVELS_PER_OCTAVE).min(FINE_OCTAVES);
             fine + coarse * (level - fine * LEVELS_PER_OCTAVE)
         };
-        let speed = |level| self.limits.feed() * Real::exp(-octave(level) * core::f64::consts::LN_2);
+        let speed = |level| highest * Real::exp(-octave(level) * core::f64::consts::LN_2);
         let mut speeds = Vec::new();
         while speeds.last().is_none_or(|last| *last > lowest) && speeds.len() <= MOST_LEVELS as usize {
             speeds.push(speed(speeds.len() as f64));
