@@ -75,7 +75,7 @@ fn help_lists_the_commands() {
     let output = program(&folder("help"), &["--help"]);
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0));
-    for command in ["list", "run", "check", "readme"] {
+    for command in ["list", "run", "check", "readme", "tune"] {
         assert!(text.contains(&format!("\n  {command}")), "{text}");
     }
 }

@@ -255,7 +255,7 @@ fn from_decays(log: &Log<'_>, options: &LogOptions) -> Result<LogModes, LogError
     if let Some(why) = found.why {
         return Err(why);
     }
-    let modes = selected(&pooled(&found.views), found.views.len(), quantum, options)?;
+    let modes = selected(&pooled(&found.views), found.views.len(), quantum, options, found.nothing)?;
     let fitted = found.fitted.unwrap_or(Fitted { first: 0, values: Vec::new() });
     Ok(LogModes {
         route: Route::FreeDecay,
@@ -277,7 +277,8 @@ fn from_transfers(log: &Log<'_>, options: &LogOptions) -> Result<LogModes, LogEr
         return Err(LogError::Still { quantity: "command", value });
     }
     let found = transfer::transfers(log)?;
-    let modes = selected(&pooled(&found.views), found.views.len(), quantum(log.response), options)?;
+    let modes =
+        selected(&pooled(&found.views), found.views.len(), quantum(log.response), options, found.nothing)?;
     Ok(LogModes {
         route: Route::TransferFunction,
         modes,
@@ -292,12 +293,13 @@ fn from_transfers(log: &Log<'_>, options: &LogOptions) -> Result<LogModes, LogEr
     })
 }
 
-/// The groups that are modes; the reason of the strongest where none is.
+/// The groups that are modes; the reason of the strongest where none is, `nothing` where there are no groups.
 fn selected(
     groups: &[Pooled],
     views: usize,
     quantum: f64,
     options: &LogOptions,
+    nothing: LogError,
 ) -> Result<Vec<LogMode>, LogError> {
     /// Deviation of the frequency over it, and of the damping ratio, beyond which a mode is a guess.
     const VAGUE: f64 = 0.1;
@@ -344,7 +346,6 @@ fn selected(
     }
     modes.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     modes.truncate(options.most.max(1));
-    let nothing = LogError::NothingSwings { rests: 0, movement: 0.0, noise: 0.0 };
     if modes.is_empty() { Err(why.unwrap_or(nothing)) } else { Ok(modes) }
 }
 

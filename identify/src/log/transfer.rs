@@ -30,6 +30,8 @@ pub(super) struct Transfers {
     pub(super) order: (usize, usize),
     /// Samples averaged to one.
     pub(super) block: usize,
+    /// What there is to say where no mode of them can be used.
+    pub(super) nothing: LogError,
 }
 
 /// A model that was tried.
@@ -48,7 +50,7 @@ impl Tried {
 /// Fits models of one to six poles and keeps those whose modes are needed and whose numbers can be believed.
 ///
 /// Orders are compared by Schwarz's criterion, `N ln(sum of squares) + p ln N` with `p` parameters. A mode must lower
-/// it by [`NEEDED`] against the best model without one. Models whose slowest pole is slower than the record is long
+/// it by 20 against the best model without one. Models whose slowest pole is slower than the record is long
 /// trade it for the offset, and are left out.
 pub(super) fn transfers(log: &Log<'_>) -> Result<Transfers, LogError> {
     /// e^(20/2) to one.
@@ -73,10 +75,11 @@ pub(super) fn transfers(log: &Log<'_>) -> Result<Transfers, LogError> {
     let static_criterion = criterion(static_residual(&input, &output), output.len(), 2);
     let without = best_of(false);
     let rigid = without.map_or(f64::INFINITY, |t| t.criterion).min(static_criterion);
+    let gain_alone = (static_residual(&input, &output) / output.len() as f64).sqrt();
+    let nothing =
+        LogError::Rigid { without: residual(without).min(gain_alone), with: residual(best_of(true)) };
     let Some(best) = best_of(true).filter(|best| best.criterion < rigid - NEEDED) else {
-        let still = static_residual(&input, &output);
-        let without = residual(without).min((still / output.len() as f64).sqrt());
-        return Err(LogError::Rigid { without, with: residual(best_of(true)) });
+        return Err(nothing);
     };
     let similar =
         tried.iter().filter(|t| residual(Some(t)) <= SIMILAR * residual(Some(best)) && t.criterion < rigid);
@@ -90,6 +93,7 @@ pub(super) fn transfers(log: &Log<'_>) -> Result<Transfers, LogError> {
         gain: best.found.dc_gain,
         order: best.order,
         block,
+        nothing,
     })
 }
 
