@@ -84,10 +84,14 @@ fn placed<const M: usize, const D: usize, const N: usize>(
     undamped: [f64; D],
 ) -> Result<ImpulseTrain<N>, ShaperError> {
     let target = mode.damping_ratio();
+    // No negative train is longer than the positive one; what Newton's method finds far beyond is no solution, for there
+    // everything but the last impulse has decayed.
+    let longest = |damping_ratio: f64| (M / 2) as f64 * PI / unit_pole(damping_ratio).im;
     let at = |damping_ratio: f64, start: [f64; D]| {
         let amplitudes = amplitudes::<M>(damping_ratio, share);
         newton(start, |times| equations(&amplitudes, times, unit_pole(damping_ratio))).filter(|times| {
             times.first().is_some_and(|t| *t > 0.0)
+                && times.last().is_some_and(|t| *t < 1.01 * longest(damping_ratio))
                 && times.windows(2).all(|pair| matches!(pair, [a, b] if a < b))
         })
     };
