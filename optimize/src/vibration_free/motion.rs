@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-12;
 const S_CURVE: Blur = Blur { shortest: 1e-12, acceleration: 1e-9, velocity: 1e-9, turn: 0.0 };
 
 /// The shortest motion that leaves nothing (or no more than is tolerated) of given modes, see [`plan`](super::plan).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct VibrationFreeMove {
     profile: Piecewise<MOST_ARCS>,
     motion: Switched<MOST_ARCS>,
