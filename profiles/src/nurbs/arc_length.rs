@@ -74,7 +74,8 @@ impl<const D: usize> ArcLength<D> {
             let middle = 0.5 * (from + to);
             let share = tolerance * ((to - from) / whole);
             let closed = to - from <= narrow || middle <= from || middle >= to;
-            if reach.error <= share || closed {
+            // What rounding moves the piece by need not be halved: nothing would come of it but more pieces.
+            if reach.error <= share.max(table.rounding(from, to, reach.most)) || closed {
                 table.push(from, to, reach);
             } else {
                 open.push((middle, to));
@@ -92,9 +93,13 @@ impl<const D: usize> ArcLength<D> {
         let length = (half * speed.whole()).clamped(0.0, reach.most);
         self.pieces.push(Piece { from, to, before: self.length, length, speed });
         self.length += length;
-        // All nodes lie in one span: their derivatives are rounded like that of the middle.
+        self.error_bound += reach.error + self.rounding(from, to, length);
+    }
+
+    /// An allowance for the roundings of a piece: all its nodes lie in one span, where derivatives round alike.
+    fn rounding(&self, from: f64, to: f64, length: f64) -> f64 {
         let [_, slope, ..] = self.curve.negligible_derivatives(0.5 * (from + to), Side::After);
-        self.error_bound += reach.error + slope * (to - from) + 4.0 * f64::EPSILON * length;
+        slope * (to - from) + 4.0 * f64::EPSILON * length
     }
 
     /// The curve.

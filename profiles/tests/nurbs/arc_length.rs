@@ -66,6 +66,22 @@ fn a_point_has_no_length() {
     assert!((0.0..=1.0).contains(&path.parameter_at(1.0)));
 }
 
+/// A tolerance far below rounding ends in rounding, and in few pieces.
+#[test]
+fn no_tolerance_is_too_small() {
+    let cusp =
+        NurbsCurve::bezier(&[[1.0, -1.0], [-1.0 / 3.0, 1.0], [-1.0 / 3.0, -1.0], [1.0, 1.0]]).expect("cusp");
+    let point = NurbsCurve::rational_bezier(&[[3.1, 1.7]; 4], &[1.0, 2.0, 0.3, 1.0]).expect("point");
+    let circle = NurbsCurve::<2>::circle([1e3, 1e3], 1.0).and_then(|c| c.raised(4)).expect("circle");
+    for curve in [cusp, point, circle] {
+        let (rough, error) = curve.length(1e-9).expect("length");
+        let (length, rounding) = curve.length(5e-324).expect("length");
+        assert!(
+            (length - rough).abs() <= error + rounding && rounding <= 1e-12 * (length + 10.0 * size(&curve))
+        );
+    }
+}
+
 #[test]
 fn lengths_and_parameters_outside_are_brought_in() {
     let path = ArcLength::new(NurbsCurve::line([0.0], [2.0]).expect("line"), 1e-12).expect("table");
