@@ -75,7 +75,7 @@ pub enum Weights {
     Given(Vec<f64>),
     /// Free but for the first and the last, which are the curve's.
     Inner,
-    /// All free, from a tenth of the smallest to ten times the largest of the curve.
+    /// All free, from a tenth of the smallest to ten times the largest of the curve where both have the same mean.
     Free,
 }
 
