@@ -128,7 +128,7 @@ impl<const D: usize> ArcLength<D> {
         let index = self.pieces.partition_point(|piece| piece.from <= u).saturating_sub(1);
         match self.pieces.get(index) {
             Some(piece) if u >= piece.to => piece.before + piece.length,
-            Some(piece) => piece.before + gauss::sixteen(piece.from, u, |u| self.speed(u)),
+            Some(piece) => piece.before + self.until(piece, u),
             None => 0.0,
         }
     }
@@ -144,6 +144,12 @@ impl<const D: usize> ArcLength<D> {
         }
     }
 
+    /// Length from the start of a piece to a parameter in it. A rule that is far off, which a loose tolerance allows, is
+    /// held within the piece.
+    fn until(&self, piece: &Piece, u: f64) -> f64 {
+        gauss::sixteen(piece.from, u, |u| self.speed(u)).clamped(0.0, piece.length)
+    }
+
     /// The parameter `rest` after the start of a piece: Newton's method within a bracket.
     fn parameter_in(&self, piece: &Piece, rest: f64) -> f64 {
         if rest <= 0.0 {
@@ -157,7 +163,7 @@ impl<const D: usize> ArcLength<D> {
         let (mut low, mut high) = (piece.from, piece.to);
         let place = piece.speed.place(rest / piece.length);
         let mut u = (0.5 * (low + high) + 0.5 * width * place).clamped(low, high);
-        let mut length = gauss::sixteen(piece.from, u, speed);
+        let mut length = self.until(piece, u);
         for _ in 0..MOST_STEPS {
             let missing = rest - length;
             if missing > 0.0 {
@@ -178,7 +184,7 @@ impl<const D: usize> ArcLength<D> {
             length = if (next - u).abs() <= 1e-3 * width {
                 length + gauss::four(u, next, speed)
             } else {
-                gauss::sixteen(piece.from, next, speed)
+                self.until(piece, next)
             };
             u = next;
         }
