@@ -79,7 +79,7 @@ pub enum Weights {
     Free,
 }
 
-/// What a reduction keeps at both ends, exactly.
+/// What a reduction keeps at both ends: the first point to the bit, the last one to a rounding where its weight changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// The end points.
