@@ -15,6 +15,8 @@ use super::task::{Place, Task};
 const EXCHANGES: usize = 40;
 /// Steps of the programmes that come to the aid of Newton's method.
 const RESCUE_STEPS: usize = 25;
+/// The most arcs with which that is worth its time.
+const AIDED: usize = 32;
 /// Times that places of a band are added to them, and the part of what is tolerated that is all of it.
 const FILLINGS: usize = 2;
 const FULL: f64 = 0.98;
@@ -49,7 +51,7 @@ pub(super) fn exchanged(
     let mut added = None;
     for _ in 0..EXCHANGES {
         let Some(optimum) = stationary(task, &structure, known.take()) else {
-            if rescues == 0 {
+            if rescues == 0 || structure.arcs.len() > AIDED {
                 break;
             }
             rescues -= 1;

@@ -12,6 +12,7 @@ mod improve;
 mod motion;
 mod newton;
 mod reading;
+mod runs;
 mod search;
 mod settle;
 mod structure;
@@ -42,7 +43,7 @@ enum Request {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Robustness {
-    /// Nothing is left of the mode as it is given.
+    /// Nothing is left of the mode as it is given; a mode that is given twice gets a double zero.
     None,
     /// And nothing of the derivative by its frequency and damping.
     DoubleZero,

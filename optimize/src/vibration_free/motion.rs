@@ -106,7 +106,7 @@ impl VibrationFreeMove {
         let [velocity, acceleration, jerk] = [limits.velocity(), limits.acceleration(), limits.jerk()];
         // The limit itself, not what is left of it after scaling there and back.
         let known = |value: f64, bounds: profiles::Interval| {
-            let near = |bound: &f64| (value - bound).abs() <= ROUNDING * bound.abs();
+            let near = |bound: &f64| bound.is_finite() && (value - bound).abs() <= ROUNDING * bound.abs();
             [bounds.lower, bounds.upper].into_iter().find(near).unwrap_or(value)
         };
         let arcs: Vec<Arc> = found
@@ -131,18 +131,12 @@ impl VibrationFreeMove {
                 }
             })
             .collect();
-        let zeros: Vec<Zero> = match robustness {
-            Robustness::None => modes.iter().map(|mode| Zero::new(*mode, false)).collect(),
-            Robustness::DoubleZero => modes.iter().map(|mode| Zero::new(*mode, true)).collect(),
-            Robustness::Band { .. } => vec![],
-        };
+        let scaled = |zero: &Zero| Zero::at(zero.pole() / task.time, zero.is_double());
+        let zeros: Vec<Zero> = task.zeros.iter().map(scaled).collect();
         let lost = VibrationFreeError::NotConverged { violation: f64::NAN };
         let close = Switched::new(from, &arcs).ok_or(lost)?;
-        let motion = if arcs.is_empty() || task.is_trivial() {
-            close
-        } else {
-            close.corrected(&goal, &zeros, &contacts).ok_or(lost)?
-        };
+        // Where modes are so near each other that their zeros are the same but for rounding, it is at rounding already.
+        let motion = close.corrected(&goal, &zeros, &contacts).unwrap_or(close);
         let profile = motion.profile(&goal, &contacts);
         let planned = Self {
             profile,

@@ -5,12 +5,21 @@ use super::error::VibrationFreeError;
 use super::exchange::{Found, exchanged, shorter};
 use super::grid::OnGrid;
 use super::reading;
+use super::runs::Runs;
+use super::structure::Structure;
 use super::task::Task;
+use super::{MOST_ARCS, Motion};
 
 /// Cells of the first grid for each rad of the fastest mode, and the fewest and the most there are.
 const DENSITY: f64 = 1.5;
 const FEWEST: f64 = 64.0;
 const MOST: f64 = 240.0;
+/// By how much longer than the shortest a motion is tried with a jerk that is not always full.
+const LONGER: [f64; 10] = [3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 0.02, 0.05, 0.2, 0.5, 1.0];
+/// Times that places of a band are added to it.
+const FILLINGS: usize = 4;
+/// The most cells of a finer grid.
+const FINEST: usize = 480;
 /// Cells into which one near a switch is cut.
 const PARTS: usize = 3;
 /// A distance close enough to that asked for to cut cells again.
@@ -18,7 +27,7 @@ const NEAR: f64 = 3e-3;
 /// And one that tells the structure.
 const TELLING: f64 = 0.1;
 /// Grids at which Newton's method gets aid, which takes longer than a finer grid.
-const AIDED: &[usize] = &[3, 4, 5, 6, 7];
+const AIDED: &[usize] = &[3, 4, 5];
 /// The same for bands, with which a programme takes longer yet.
 const AIDED_WITH_BANDS: &[usize] = &[3, 5];
 
@@ -57,7 +66,10 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
             }
         }
         if round == 0 || missed < NEAR {
-            cells = reading::refined(&task, &found, PARTS);
+            let finer = reading::refined(&task, &found, PARTS);
+            if finer.len() <= FINEST {
+                cells = finer;
+            }
         }
         if beyond < 0.0 {
             early = duration;
@@ -72,5 +84,32 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
             duration = 0.5 * (early + late);
         }
     }
-    best.ok_or(VibrationFreeError::NotConverged { violation: missed })
+    best.or_else(|| freely(&task, &cells, duration))
+        .ok_or(VibrationFreeError::NotConverged { violation: missed })
+}
+
+/// A motion in little more than the shortest time whose jerk is not always full: on the cells of a grid, as few as a motion
+/// may have.
+fn freely(task: &Task, cells: &[f64], shortest: f64) -> Option<Found> {
+    let coarse = [1.0; MOST_ARCS];
+    let grid = if cells.len() <= MOST_ARCS { cells } else { &coarse };
+    let sum: f64 = grid.iter().sum();
+    let mut task = task.clone();
+    LONGER.iter().find_map(|longer| {
+        let unit = shortest * (1.0 + longer) / sum;
+        let cells: Vec<f64> = grid.iter().map(|cell| cell * unit).collect();
+        for _ in 0..FILLINGS {
+            let arcs = Runs::new(&task, cells.clone()).gentlest()?;
+            if band::is_kept(&task, &arcs) {
+                let motion = Motion::new(task.from, &arcs)?;
+                return Some(Found {
+                    structure: Structure { arcs, ..Structure::default() },
+                    motion,
+                    multipliers: None,
+                });
+            }
+            task.add_places(band::peaks(&task, &arcs), &arcs);
+        }
+        None
+    })
 }

@@ -9,7 +9,9 @@ use super::{MOST_MODES, Request, Robustness};
 /// What is aimed for in a band, as a part of what is tolerated: the rest is what the certificate cannot tell.
 const AIM: f64 = 1.0 - 2e-4;
 /// A part of what is tolerated that a solver can tell.
-const VISIBLE: f64 = 1e-3;
+const VISIBLE: f64 = 3e-5;
+/// A distance of two poles, as a part of the frequency, of which the square is nothing.
+const SAME: f64 = 3e-7;
 /// Places of a band at which it is kept on a grid.
 const PLACES: usize = 5;
 
@@ -98,6 +100,21 @@ pub(super) struct Task {
     pub(super) length: f64,
 }
 
+/// The modes, those that are the same but for what a double zero covers once, and whether there was more than one.
+fn distinct(modes: &[Mode]) -> Vec<(Mode, bool)> {
+    let mut distinct: Vec<(Mode, bool)> = Vec::new();
+    for mode in modes {
+        let same = |(other, _): &&mut (Mode, bool)| {
+            (other.pole() - mode.pole()).norm() <= SAME * other.angular_frequency()
+        };
+        match distinct.iter_mut().find(same) {
+            Some((_, twice)) => *twice = true,
+            None => distinct.push((*mode, false)),
+        }
+    }
+    distinct
+}
+
 impl Task {
     /// The task, and the S-curve that meets all of it but the modes.
     pub(super) fn new(
@@ -133,10 +150,11 @@ impl Task {
         };
         let mut longest = 1.0;
         let (mut zeros, mut bands) = (Vec::new(), Vec::new());
-        for mode in modes {
+        let modes = distinct(modes);
+        for (mode, twice) in &modes {
             let (pole, half) = (mode.pole() * time, 0.5 * mode.damped_period() / time);
             match robustness {
-                Robustness::None => zeros.push(Zero::at(pole, false)),
+                Robustness::None => zeros.push(Zero::at(pole, *twice)),
                 Robustness::DoubleZero => zeros.push(Zero::at(pole, true)),
                 Robustness::Band { half_width, residual } => {
                     if !(half_width > 0.0 && half_width < 1.0) {

@@ -120,7 +120,7 @@ impl<const N: usize> Switched<N> {
     /// Sum of the durations, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
-        self.arcs().iter().map(|arc| arc.duration).sum()
+        self.arcs().iter().fold(0.0, |sum, arc| sum + arc.duration)
     }
 
     /// Instants at which the jerk jumps, the start and the end among them.
