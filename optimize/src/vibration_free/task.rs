@@ -196,11 +196,6 @@ impl Task {
         self.places.extend(peaks.into_iter().filter(|place| place.part(arcs) > 1.0 + VISIBLE));
     }
 
-    /// Whether nothing is asked of modes.
-    pub(super) fn is_trivial(&self) -> bool {
-        self.zeros.is_empty() && self.bands.is_empty()
-    }
-
     /// The larger of the limits of the jerk.
     pub(super) fn full_jerk(&self) -> f64 {
         self.jerk.magnitude()
