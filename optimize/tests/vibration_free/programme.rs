@@ -26,7 +26,7 @@ impl Rows {
 
 /// How far the axis gets in `duration`, as a part of the distance, with `n` equal intervals; unknown are jerk, acceleration
 /// and velocity at every grid point, each as a part of what a jerk of one makes of it.
-fn reached(task: &Task, robustness: Robustness, duration: f64, n: usize) -> f64 {
+pub(crate) fn reached(task: &Task, robustness: Robustness, duration: f64, n: usize) -> f64 {
     let limits = if task.distance < 0.0 { task.limits.mirrored() } else { task.limits };
     let dt = duration / n as f64;
     let j_unit = limits.jerk().magnitude();
@@ -111,32 +111,21 @@ fn reached(task: &Task, robustness: Robustness, duration: f64, n: usize) -> f64 
     }
 }
 
-/// The shortest duration on a grid, to 1e-5 of it.
-fn shortest(task: &Task, robustness: Robustness, n: usize, guess: f64) -> f64 {
-    let (mut early, mut late) = (task.s_curve() * (1.0 - 1e-9), task.shaped(robustness) * 1.02);
-    let mut tried = guess.clamp(early, late);
-    let mut width = 2e-3;
-    // Around the guess first, then by halves.
-    while late - early > 1e-5 * late {
-        if reached(task, robustness, tried, n) >= 1.0 - 1e-7 {
-            late = tried;
-            tried = (tried * (1.0 - width)).max(0.5 * (early + late));
-        } else {
-            early = tried;
-            tried = (tried * (1.0 + width)).min(0.5 * (early + late));
-        }
-        width *= 0.5;
-    }
-    late
-}
-
-/// No longer than the programme's, but for `part` of it.
-fn no_longer(task: &Task, robustness: Robustness, n: usize, part: f64) -> Result<(), TestCaseError> {
+/// No longer than the programme's, but for `part` of it; the grid itself costs less than `grid`.
+fn no_longer(
+    task: &Task,
+    robustness: Robustness,
+    n: usize,
+    part: f64,
+    grid: f64,
+) -> Result<(), TestCaseError> {
     let planned = task.plan(robustness).duration();
-    // Where a programme gets further in less time there is a shorter move than the planned one.
-    let known = shortest(task, robustness, n, planned * (1.0 - part));
-    println!("{planned:.6} {known:.6} {:+.1e}", planned / known - 1.0);
-    prop_assert!(planned <= known * (1.0 + part), "planned {planned}, on a grid {known}");
+    // Where a programme gets there in less time there is a shorter move than the planned one.
+    let early = reached(task, robustness, planned / (1.0 + part), n);
+    prop_assert!(early < 1.0, "planned {planned}, on a grid {early} of the distance in {part} less");
+    // And it does get there in a little more.
+    let late = reached(task, robustness, planned * (1.0 + grid), n);
+    prop_assert!(late >= 1.0, "planned {planned}, on a grid {late} of the distance in {grid} more");
     Ok(())
 }
 
@@ -156,7 +145,7 @@ fn rows() -> [Task; 6] {
 fn published_moves_are_no_longer_than_on_a_coarse_grid() {
     for task in rows() {
         for robustness in [Robustness::None, Robustness::DoubleZero] {
-            no_longer(&task, robustness, 200, 1e-3).expect("no longer");
+            no_longer(&task, robustness, 200, 1e-3, 2e-3).expect("no longer");
         }
     }
 }
@@ -166,16 +155,16 @@ fn published_moves_are_no_longer_than_on_a_coarse_grid() {
 fn published_moves_are_no_longer_than_on_a_grid_of_two_thousand() {
     for task in rows() {
         for robustness in [Robustness::None, Robustness::DoubleZero] {
-            no_longer(&task, robustness, 2000, 1e-3).expect("no longer");
+            no_longer(&task, robustness, 2000, 1e-3, 1e-4).expect("no longer");
         }
     }
 }
 
 proptest! {
-    #![proptest_config(config(12))]
+    #![proptest_config(config(16))]
 
     #[test]
-    fn random_moves_are_no_longer_than_on_a_coarse_grid(task in a_task(3, true), robustness in zeros()) {
-        no_longer(&task, robustness, 200, 1e-3)?;
+    fn random_moves_are_no_longer_than_on_a_coarse_grid(task in a_task(2, true), robustness in zeros()) {
+        no_longer(&task, robustness, 200, 1e-3, 1e-2)?;
     }
 }

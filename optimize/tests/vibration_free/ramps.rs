@@ -20,13 +20,13 @@ fn of(limits: &Limits, part: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(config(96))]
+    #![proptest_config(config(48))]
 
     #[test]
     fn nothing_is_left_after_a_change_of_velocity(
         (_, _, limits) in limits(true),
         (from, to) in velocities(),
-        modes in prop::collection::vec((magnitude(0.3, 8.0), prop_oneof![Just(0.0), 0.0..0.3]), 1..=3),
+        modes in prop::collection::vec((magnitude(0.3, 8.0), prop_oneof![Just(0.0), 0.0..0.3]), 1..=2),
         robustness in zeros(),
     ) {
         let (from, to) = (of(&limits, from), of(&limits, to));

@@ -107,6 +107,15 @@ pub(crate) fn zeros() -> impl Strategy<Value = Robustness> {
     prop_oneof![2 => Just(Robustness::None), 1 => Just(Robustness::DoubleZero)]
 }
 
+/// Zeros of up to four modes, or double ones of up to two.
+pub(crate) fn a_request() -> impl Strategy<Value = (Task, Robustness)> {
+    prop_oneof![
+        3 => (a_task(4, true), Just(Robustness::None)),
+        1 => (a_task(1, true), Just(Robustness::DoubleZero)),
+        1 => (a_task(2, true), Just(Robustness::DoubleZero)),
+    ]
+}
+
 /// The sections that last.
 pub(crate) fn sections<P: Sectioned>(profile: &P) -> Vec<Section> {
     (0..).map_while(|k| profile.section(k)).filter(|s| s.end > s.start).collect()
@@ -119,8 +128,8 @@ pub(crate) fn simulated<P: Sectioned>(profile: &P, mode: Mode) -> f64 {
     let (mut x, mut v) = (0.0, 0.0);
     for section in sections(profile) {
         let (from, to) = section.local_ends();
-        // Off by (w dt)^4 / 120 of the amplitude a radian: 1e-11 in a hundred of them.
-        let steps = ((to - from) * w / 0.01).ceil().max(1.0);
+        // Off by (w dt)^4 / 120 of the amplitude a radian: 1e-11 in ten of them.
+        let steps = ((to - from) * w / 0.0035).ceil().max(1.0);
         let dt = (to - from) / steps;
         let rate =
             |x: f64, v: f64, at: f64| (v, -section.at_local(at).acceleration - 2.0 * z * w * v - w * w * x);
@@ -202,7 +211,9 @@ pub(crate) fn at_rest(
     for mode in modes {
         let closed = profiles::residual_vibration(motion, *mode) / unit(mode);
         prop_assert!(closed <= 1e-12, "closed form {closed:e} of {mode:?}");
-        let left = simulated(motion, *mode) / unit(mode);
+        // A slow mode goes with the axis, which may go far beyond its distance.
+        let way = motion.extrema().position.magnitude();
+        let left = simulated(motion, *mode) / unit(mode).max(way);
         prop_assert!(left <= 1e-9, "simulated {left:e} of {mode:?}");
     }
     Ok(())
