@@ -13,10 +13,12 @@ mod reading;
 mod search;
 mod settle;
 mod structure;
+mod table;
 mod task;
 
 pub use error::VibrationFreeError;
 pub use motion::VibrationFreeMove;
+pub use table::{MoveTableBuildError, OwnedMoveTable, TABLE_TOLERANCE, plan_table};
 
 use profiles::switched::Switched;
 use profiles::{Limits, Mode};
