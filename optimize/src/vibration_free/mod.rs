@@ -16,11 +16,13 @@ mod runs;
 mod search;
 mod settle;
 mod structure;
+mod table;
 mod task;
 
 pub use clocked::ClockedMove;
 pub use error::VibrationFreeError;
 pub use motion::VibrationFreeMove;
+pub use table::{MoveTableBuildError, OwnedMoveTable, TABLE_TOLERANCE, plan_table};
 
 use profiles::switched::Switched;
 use profiles::{Limits, Mode};

@@ -3,9 +3,11 @@
 mod motion;
 mod newton;
 mod states;
+mod table;
 mod zero;
 
 pub use states::{Condition, SwitchState};
+pub use table::{MoveFamily, MoveTable, MoveTableError, Run};
 pub use zero::Zero;
 
 /// A stretch of constant jerk.
@@ -62,6 +64,15 @@ impl Contact {
             Self::Acceleration { value, .. } => Self::Acceleration { arc, value },
             Self::Velocity { value, .. } => Self::Velocity { arc, value },
             Self::Turn { value, .. } => Self::Turn { arc, value },
+        }
+    }
+
+    /// The same contact of a motion times a factor.
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Acceleration { arc, value } => Self::Acceleration { arc, value: factor * value },
+            Self::Velocity { arc, value } => Self::Velocity { arc, value: factor * value },
+            Self::Turn { arc, value } => Self::Turn { arc, value: factor * value },
         }
     }
 }
