@@ -17,9 +17,8 @@ fn gets<const D: usize>(curve: NurbsCurve<D>, limits: FeedLimits<D>, parts: u32)
     for ((sample, point), velocity) in samples.iter().zip(list.points()).zip(list.velocities()) {
         assert_eq!((sample.position, sample.velocity), (*point, *velocity));
     }
-    let (Some(first), Some(last)) = (list.points().first(), list.points().last()) else {
-        panic!("no points")
-    };
+    let first = list.points().first().expect("points");
+    let last = list.points().last().expect("points");
     assert_eq!((*first, *last), (feed.curve().start(), feed.curve().end()));
 
     let (period, size) = (list.period(), feed.length());
