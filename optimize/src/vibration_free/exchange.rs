@@ -25,7 +25,7 @@ const SETTLED: Blur = Blur { shortest: 1e-4, acceleration: 1e-2, velocity: 2e-3,
 /// An arc that is none, as a part of the S-curve's duration.
 const SHORTEST: f64 = 1e-9;
 /// A limit that is passed by less, as a part of its size, is met.
-const MET: f64 = 1e-10;
+const MET: f64 = 5e-13;
 
 /// A motion that meets all that is asked.
 #[derive(Debug, Clone, PartialEq)]

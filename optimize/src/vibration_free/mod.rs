@@ -15,6 +15,7 @@ mod reading;
 mod runs;
 mod search;
 mod settle;
+mod shaped;
 mod structure;
 mod table;
 mod task;

@@ -16,6 +16,8 @@ use super::{MOST_ARCS, Motion, Request, Robustness};
 
 /// What a zero may leave, as a part of the motion.
 const EXACT: f64 = 1e-12;
+/// What may be missed of the end by the way there, as a part of the motion.
+const REACHED: f64 = 1e-10;
 /// Parts by which a number may be off for rounding.
 const ROUNDING: f64 = 1e-12;
 /// What the S-curve is known by.
@@ -53,7 +55,7 @@ impl VibrationFreeMove {
             };
             return Self::in_units(task, nothing, request, limits, modes, robustness, 0.0);
         }
-        let found = match free_already(&task, &s_curve) {
+        let found = match free_already(&task) {
             Some(found) => found,
             None => searched(&task)?,
         };
@@ -166,12 +168,28 @@ impl VibrationFreeMove {
     /// The motion, if it is all that was asked.
     fn verified(self) -> Result<Self, VibrationFreeError> {
         let banded = matches!(self.robustness, Robustness::Band { .. });
+        let missed = self.missed();
+        if missed.is_nan() || missed > REACHED {
+            return Err(VibrationFreeError::NotConverged { violation: missed });
+        }
         let violation = if banded && !band::is_certified(&self.task, self.found.motion.arcs()) {
             band::worst(&self.task, self.found.motion.arcs())
         } else {
             self.violation(&self.profile)
         };
         if violation > 0.0 { Err(VibrationFreeError::NotConverged { violation }) } else { Ok(self) }
+    }
+
+    /// By how much the way there misses the end, which the profile then meets exactly.
+    fn missed(&self) -> f64 {
+        let end = self.motion.states().last().unwrap_or_default();
+        let way = self.goal.distance.map_or(0.0, |distance| end.position - distance);
+        let velocity = end.velocity - self.goal.velocity;
+        let Task { time, length, .. } = &self.task;
+        [end.acceleration * time * time, velocity * time, way]
+            .iter()
+            .map(|x| (x / length).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Whether a profile for the same end is all that was asked; bands are looked at at their peaks only.
@@ -278,14 +296,8 @@ impl VibrationFreeMove {
 }
 
 /// The S-curve, where it is free of vibration by itself.
-fn free_already(task: &Task, s_curve: &SCurve) -> Option<Found> {
-    let unit = |order: i32| task.length / task.time.powi(order);
-    let sections = (0..).map_while(|k| s_curve.section(k)).filter(|section| section.length() > 0.0);
-    let arcs = sections.map(|section| {
-        let jerk = section.polynomial.jerk / unit(3);
-        Arc { jerk: if jerk == 0.0 { 0.0 } else { task.full(jerk) }, duration: section.length() / task.time }
-    });
-    let structure = Structure::of(task, &arcs.collect::<Vec<_>>(), S_CURVE)?;
+fn free_already(task: &Task) -> Option<Found> {
+    let structure = Structure::of(task, &task.plain, S_CURVE)?;
     let motion = Motion::new(task.from, &structure.arcs)?;
     let mut left = 0.0_f64;
     for zero in &task.zeros {

@@ -9,6 +9,8 @@ use crate::programme::{Affine, Programme};
 
 /// Room left in limits for the last correction, as a part of them.
 const ROOM: f64 = 1e-8;
+/// What end and zeros may be missed by where the largest coefficient is one.
+const MISSED: f64 = 1e-12;
 /// Room left in what is tolerated of a band, as a part of it.
 const BAND_ROOM: f64 = 1e-4;
 
@@ -164,6 +166,7 @@ impl<'a> Runs<'a> {
             let missed = &rows * &jerk - &right;
             jerk -= svd.solve(&missed, 1e-12).ok()?;
         }
-        Some(jerk.iter().copied().collect())
+        let missed = (&rows * &jerk - &right).amax();
+        (missed <= MISSED).then(|| jerk.iter().copied().collect())
     }
 }

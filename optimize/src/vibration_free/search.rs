@@ -6,6 +6,7 @@ use super::exchange::{Found, exchanged, shorter};
 use super::grid::OnGrid;
 use super::reading;
 use super::runs::Runs;
+use super::shaped::shaped;
 use super::structure::Structure;
 use super::task::Task;
 use super::{MOST_ARCS, Motion};
@@ -94,7 +95,15 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
             duration = 0.5 * (early + late);
         }
     }
-    best.or_else(|| freely(&task, &runs, duration))
+    let shaped = shaped(&task).map(|motion| {
+        let structure = Structure { arcs: motion.arcs().to_vec(), ..Structure::default() };
+        Found { structure, motion, multipliers: None }
+    });
+    let freely = if best.is_none() { freely(&task, &runs, duration) } else { None };
+    shaped
+        .into_iter()
+        .chain(freely)
+        .fold(best, |best, found| Some(shorter(best, found)))
         .ok_or(VibrationFreeError::NotConverged { violation: missed })
 }
 

@@ -1,7 +1,7 @@
 //! What is asked of a motion, without units.
 
 use profiles::switched::{Arc, Goal, Zero};
-use profiles::{Complex, Interval, Limits, Mode, Profile, SCurve};
+use profiles::{Complex, Interval, Limits, Mode, Profile, SCurve, Sectioned};
 
 use super::error::VibrationFreeError;
 use super::{MOST_MODES, Request, Robustness};
@@ -92,6 +92,8 @@ pub(super) struct Task {
     pub(super) bands: Vec<Band>,
     /// Where the bands are kept on a grid.
     pub(super) places: Vec<Place>,
+    /// The S-curve.
+    pub(super) plain: Vec<Arc>,
     /// A duration that a convolution of the S-curve would reach; the S-curve's is one.
     pub(super) longest: f64,
     /// s.
@@ -175,7 +177,7 @@ impl Task {
                 Robustness::Band { .. } => 8.0 * half,
             };
         }
-        let task = Self {
+        let mut task = Self {
             velocity: scaled(along.velocity(), 1),
             acceleration: scaled(along.acceleration(), 2),
             jerk: scaled(jerk, 3),
@@ -184,10 +186,20 @@ impl Task {
             zeros,
             places: bands.iter().flat_map(Band::places).collect(),
             bands,
+            plain: vec![],
             longest,
             time,
             length: sign * length,
         };
+        let sections = (0..).map_while(|k| s_curve.section(k)).filter(|section| section.length() > 0.0);
+        let arcs = sections.map(|section| {
+            let jerk = section.polynomial.jerk / (task.length / task.time.powi(3));
+            Arc {
+                jerk: if jerk == 0.0 { 0.0 } else { task.full(jerk) },
+                duration: section.length() / task.time,
+            }
+        });
+        task.plain = arcs.collect();
         Ok((task, s_curve))
     }
 
