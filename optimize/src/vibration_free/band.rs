@@ -3,20 +3,24 @@
 use profiles::Interval;
 use profiles::switched::Arc;
 
-use super::Motion;
 use super::structure::Structure;
 use super::task::{Band, Place, Task};
 
 /// Samples of a band, per rad that its poles turn in the course of the motion.
 const DENSITY: f64 = 2.0;
-/// What may be left beyond what is tolerated, as a part of it, until the certificate.
-const BEYOND: f64 = 1e-9;
+/// What may be left beyond what is aimed for, as a part of it: less than the aim is below what is tolerated.
+const BEYOND: f64 = 5e-5;
 /// Intervals before a certificate is given up.
 const HALVINGS: usize = 100_000;
 /// Places closer than this, as a part of the frequency, are one.
 const CLOSE: f64 = 1e-6;
 
-/// The most that is left, as a part of what is tolerated; zero without bands.
+/// Whether no more is left of any band than is tolerated.
+pub(super) fn is_kept(task: &Task, arcs: &[Arc]) -> bool {
+    worst(task, arcs) <= 1.0 + BEYOND
+}
+
+/// The most that is left, as a part of what is aimed for; zero without bands.
 pub(super) fn worst(task: &Task, arcs: &[Arc]) -> f64 {
     peaks(task, arcs).iter().map(|place| place.part(arcs)).fold(0.0, f64::max)
 }
@@ -46,14 +50,13 @@ pub(super) fn fuller(task: &Task, structure: &Structure, arcs: &[Arc]) -> Option
 /// Over factors `x` of the frequency within `h` of `c` the response to the jerk is `q(c) + (x - c) q'(c)`, of which the
 /// magnitude is largest at an end, and no more than `h^2 / 2` times a bound of `q''` beyond that. Intervals are halved until
 /// the bound suffices.
-pub(super) fn is_certified(task: &Task, motion: &Motion) -> bool {
-    let end = motion.duration();
+pub(super) fn is_certified(task: &Task, arcs: &[Arc]) -> bool {
+    let end: f64 = arcs.iter().map(|arc| arc.duration).sum();
     task.bands.iter().all(|band| {
         let slowest = band.place(band.factors.lower).pole.re;
         // |p|^2 times the integral of |j| R^2 e^(Re p R), with R the time left.
         let mut left = end;
-        let integral: f64 = motion
-            .arcs()
+        let integral: f64 = arcs
             .iter()
             .map(|arc| {
                 let before = left;
@@ -68,7 +71,7 @@ pub(super) fn is_certified(task: &Task, motion: &Motion) -> bool {
             rounds += 1;
             let (centre, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
             let place = band.place(centre);
-            let [value, slope] = place.responses(motion.arcs(), true);
+            let [value, slope] = place.responses(arcs, true);
             // r is |p| times the derivative by the pole, and the pole is a multiple of the factor.
             let slope = slope * (place.pole / (place.pole.norm() * centre)) * half;
             let bound = (value + slope).norm().max((value - slope).norm()) + 0.5 * half * half * curvature;

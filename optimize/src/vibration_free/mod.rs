@@ -1,6 +1,8 @@
 //! The shortest motion that leaves nothing of given modes.
 
+mod asked;
 mod band;
+mod clocked;
 mod conditions;
 mod costate;
 mod error;
@@ -10,13 +12,17 @@ mod improve;
 mod motion;
 mod newton;
 mod reading;
+mod runs;
 mod search;
 mod settle;
 mod structure;
+mod table;
 mod task;
 
+pub use clocked::ClockedMove;
 pub use error::VibrationFreeError;
 pub use motion::VibrationFreeMove;
+pub use table::{MoveTableBuildError, OwnedMoveTable, TABLE_TOLERANCE, plan_table};
 
 use profiles::switched::Switched;
 use profiles::{Limits, Mode};
@@ -39,7 +45,7 @@ enum Request {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Robustness {
-    /// Nothing is left of the mode as it is given.
+    /// Nothing is left of the mode as it is given; a mode that is given twice gets a double zero.
     None,
     /// And nothing of the derivative by its frequency and damping.
     DoubleZero,

@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-12;
 const S_CURVE: Blur = Blur { shortest: 1e-12, acceleration: 1e-9, velocity: 1e-9, turn: 0.0 };
 
 /// The shortest motion that leaves nothing (or no more than is tolerated) of given modes, see [`plan`](super::plan).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct VibrationFreeMove {
     profile: Piecewise<MOST_ARCS>,
     motion: Switched<MOST_ARCS>,
@@ -75,7 +75,7 @@ impl VibrationFreeMove {
         let mut structure = self.found.structure.clone();
         structure.arcs = self.found.motion.arcs().to_vec();
         structure.places.iter_mut().for_each(|place| place.tolerated *= ratio);
-        match exchanged(&task, structure, self.found.multipliers.as_deref()) {
+        match exchanged(&task, structure, self.found.multipliers.as_deref(), 0) {
             Some(found) if found.multipliers.is_some() => {
                 let (limits, modes) = (&self.limits, &self.modes);
                 Self::in_units(task, found, request, limits, modes, self.robustness, s_curve.duration())
@@ -106,7 +106,7 @@ impl VibrationFreeMove {
         let [velocity, acceleration, jerk] = [limits.velocity(), limits.acceleration(), limits.jerk()];
         // The limit itself, not what is left of it after scaling there and back.
         let known = |value: f64, bounds: profiles::Interval| {
-            let near = |bound: &f64| (value - bound).abs() <= ROUNDING * bound.abs();
+            let near = |bound: &f64| bound.is_finite() && (value - bound).abs() <= ROUNDING * bound.abs();
             [bounds.lower, bounds.upper].into_iter().find(near).unwrap_or(value)
         };
         let arcs: Vec<Arc> = found
@@ -131,18 +131,12 @@ impl VibrationFreeMove {
                 }
             })
             .collect();
-        let zeros: Vec<Zero> = match robustness {
-            Robustness::None => modes.iter().map(|mode| Zero::new(*mode, false)).collect(),
-            Robustness::DoubleZero => modes.iter().map(|mode| Zero::new(*mode, true)).collect(),
-            Robustness::Band { .. } => vec![],
-        };
+        let scaled = |zero: &Zero| Zero::at(zero.pole() / task.time, zero.is_double());
+        let zeros: Vec<Zero> = task.zeros.iter().map(scaled).collect();
         let lost = VibrationFreeError::NotConverged { violation: f64::NAN };
         let close = Switched::new(from, &arcs).ok_or(lost)?;
-        let motion = if arcs.is_empty() || task.is_trivial() {
-            close
-        } else {
-            close.corrected(&goal, &zeros, &contacts).ok_or(lost)?
-        };
+        // Where modes are so near each other that their zeros are the same but for rounding, it is at rounding already.
+        let motion = close.corrected(&goal, &zeros, &contacts).unwrap_or(close);
         let profile = motion.profile(&goal, &contacts);
         let planned = Self {
             profile,
@@ -162,24 +156,40 @@ impl VibrationFreeMove {
 
     /// The motion, if it is all that was asked.
     fn verified(self) -> Result<Self, VibrationFreeError> {
+        let banded = matches!(self.robustness, Robustness::Band { .. });
+        let violation = if banded && !band::is_certified(&self.task, self.found.motion.arcs()) {
+            band::worst(&self.task, self.found.motion.arcs())
+        } else {
+            self.violation(&self.profile)
+        };
+        if violation > 0.0 { Err(VibrationFreeError::NotConverged { violation }) } else { Ok(self) }
+    }
+
+    /// Whether a profile for the same end is all that was asked; bands are looked at at their peaks only.
+    pub(super) fn holds<P: Profile>(&self, profile: &P) -> bool {
+        self.violation(profile) <= 0.0
+    }
+
+    /// By how much a profile passes limits, or leaves more of the modes than it may.
+    fn violation<P: Profile>(&self, profile: &P) -> f64 {
         let mut violation = 0.0_f64;
         let mut take =
             |value: f64| violation = if value.is_nan() { f64::INFINITY } else { violation.max(value) };
-        if !matches!(self.robustness, Robustness::Band { .. }) {
-            for mode in &self.modes {
-                take(residual_vibration(&self.profile, *mode) / self.size(mode) - EXACT);
+        match self.robustness {
+            Robustness::Band { .. } => {}
+            Robustness::None | Robustness::DoubleZero => {
+                self.modes.iter().for_each(|mode| {
+                    take(residual_vibration(profile, *mode) / self.size(mode) - EXACT);
+                });
             }
-        } else if !band::is_certified(&self.task, &self.found.motion) {
-            take(band::worst(&self.task, self.found.motion.arcs()));
         }
-        let Extrema { velocity, acceleration, .. } = self.profile.extrema();
-        for (range, bounds) in
-            [(velocity, self.limits.velocity()), (acceleration, self.limits.acceleration())]
-        {
+        let Extrema { velocity, acceleration, jerk, .. } = profile.extrema();
+        let limits = [self.limits.velocity(), self.limits.acceleration(), self.limits.jerk()];
+        for (range, bounds) in [velocity, acceleration, jerk].into_iter().zip(limits) {
             take(range.upper / bounds.upper - 1.0 - ROUNDING);
             take(range.lower / bounds.lower - 1.0 - ROUNDING);
         }
-        if violation > 0.0 { Err(VibrationFreeError::NotConverged { violation }) } else { Ok(self) }
+        violation
     }
 
     /// What a residual is set against: the distance, or the change of velocity over the frequency.
@@ -190,6 +200,28 @@ impl VibrationFreeMove {
                 ((to - from).abs() / mode.angular_frequency()).max(f64::MIN_POSITIVE)
             }
         }
+    }
+
+    pub(super) fn profile(&self) -> &Piecewise<MOST_ARCS> {
+        &self.profile
+    }
+
+    pub(super) fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Instants at which the jerk jumps or the velocity turns, s.
+    pub(super) fn instants(&self) -> Vec<f64> {
+        let arcs = self.motion.states().zip(self.motion.arcs());
+        let turns = arcs.filter_map(|(state, arc)| {
+            let turn = -state.acceleration / arc.jerk;
+            (turn > 0.0 && turn < arc.duration).then_some(state.time + turn)
+        });
+        self.motion.states().map(|state| state.time).chain(turns).collect()
+    }
+
+    pub(super) fn request(&self) -> Request {
+        self.request
     }
 
     /// The sections of the motion.
@@ -253,7 +285,7 @@ fn free_already(task: &Task, s_curve: &SCurve) -> Option<Found> {
         let amplitude = zero.pole().norm() * zero.pole().im;
         left = response.iter().map(|part| part.norm() / amplitude).fold(left, f64::max);
     }
-    let free = left <= 0.1 * EXACT && band::worst(task, motion.arcs()) <= 1.0;
+    let free = left <= 0.1 * EXACT && band::is_kept(task, motion.arcs());
     free.then(|| Found { structure, motion, multipliers: Some(vec![]) })
 }
 

@@ -1,25 +1,41 @@
 //! From a grid to the optimum.
 
+use super::band;
 use super::error::VibrationFreeError;
 use super::exchange::{Found, exchanged, shorter};
 use super::grid::OnGrid;
 use super::reading;
+use super::runs::Runs;
+use super::structure::Structure;
 use super::task::Task;
+use super::{MOST_ARCS, Motion};
 
 /// Cells of the first grid for each rad of the fastest mode, and the fewest and the most there are.
 const DENSITY: f64 = 1.5;
 const FEWEST: f64 = 64.0;
 const MOST: f64 = 240.0;
+/// By how much longer than the shortest a motion is tried with a jerk that is not always full.
+const LONGER: [f64; 10] = [3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 0.02, 0.05, 0.2, 0.5, 1.0];
+/// Times that places of a band are added to it.
+const FILLINGS: usize = 4;
+/// The most cells of a finer grid.
+const FINEST: usize = 480;
 /// Cells into which one near a switch is cut.
 const PARTS: usize = 3;
 /// A distance close enough to that asked for to cut cells again.
 const NEAR: f64 = 3e-3;
-/// Grids before the best motion is taken that there is.
-const ROUNDS: usize = 6;
+/// And one that tells the structure.
+const TELLING: f64 = 0.1;
+/// Grids at which Newton's method gets aid, which takes longer than a finer grid.
+const AIDED: &[usize] = &[3, 4, 5];
+/// The same for bands, with which a programme takes longer yet.
+const AIDED_WITH_BANDS: &[usize] = &[3, 5];
 
 /// The shortest motion: the duration in which the furthest motion on a grid gets to the goal by the secant rule, and from
 /// every grid but the first, where the jerk switches, the optimum by exchange.
 pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
+    // The places of bands grow from grid to grid.
+    let mut task = task.clone();
     let poles = task.zeros.iter().map(|zero| zero.pole()).chain(task.places.iter().map(|place| place.pole));
     let fastest = poles.map(|pole| pole.norm()).fold(0.0, f64::max);
     let count = (DENSITY * fastest).clamp(FEWEST, MOST) as usize;
@@ -29,23 +45,31 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
     let mut last: Option<(f64, f64)> = None;
     let mut best: Option<Found> = None;
     let mut missed = f64::INFINITY;
-    for round in 0..ROUNDS {
+    let aided = if task.bands.is_empty() { AIDED } else { AIDED_WITH_BANDS };
+    for round in 0..=aided.iter().copied().max().unwrap_or(0) {
         let unit = duration / cells.iter().sum::<f64>();
-        let Some(found) = OnGrid::furthest(task, cells.iter().map(|cell| cell * unit).collect()) else {
+        let Some(found) = OnGrid::furthest(&task, cells.iter().map(|cell| cell * unit).collect()) else {
             break;
         };
         let beyond = found.reached - 1.0;
+        let arcs = found.arcs();
+        task.add_places(band::peaks(&task, &arcs), &arcs);
         missed = beyond.abs();
-        if round > 0 {
-            let structure = reading::structure(task, &found);
-            match structure.and_then(|structure| exchanged(task, structure, None)) {
+        if round > 0 && missed < TELLING {
+            let structure = reading::structure(&task, &found);
+            match structure
+                .and_then(|structure| exchanged(&task, structure, None, usize::from(aided.contains(&round))))
+            {
                 Some(found) if found.multipliers.is_some() => return Ok(found),
                 Some(found) => best = Some(shorter(best, found)),
                 None => {}
             }
         }
         if round == 0 || missed < NEAR {
-            cells = reading::refined(task, &found, PARTS);
+            let finer = reading::refined(&task, &found, PARTS);
+            if finer.len() <= FINEST {
+                cells = finer;
+            }
         }
         if beyond < 0.0 {
             early = duration;
@@ -60,5 +84,32 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
             duration = 0.5 * (early + late);
         }
     }
-    best.ok_or(VibrationFreeError::NotConverged { violation: missed })
+    best.or_else(|| freely(&task, &cells, duration))
+        .ok_or(VibrationFreeError::NotConverged { violation: missed })
+}
+
+/// A motion in little more than the shortest time whose jerk is not always full: on the cells of a grid, as few as a motion
+/// may have.
+fn freely(task: &Task, cells: &[f64], shortest: f64) -> Option<Found> {
+    let coarse = [1.0; MOST_ARCS];
+    let grid = if cells.len() <= MOST_ARCS { cells } else { &coarse };
+    let sum: f64 = grid.iter().sum();
+    let mut task = task.clone();
+    LONGER.iter().find_map(|longer| {
+        let unit = shortest * (1.0 + longer) / sum;
+        let cells: Vec<f64> = grid.iter().map(|cell| cell * unit).collect();
+        for _ in 0..FILLINGS {
+            let arcs = Runs::new(&task, cells.clone()).gentlest()?;
+            if band::is_kept(&task, &arcs) {
+                let motion = Motion::new(task.from, &arcs)?;
+                return Some(Found {
+                    structure: Structure { arcs, ..Structure::default() },
+                    motion,
+                    multipliers: None,
+                });
+            }
+            task.add_places(band::peaks(&task, &arcs), &arcs);
+        }
+        None
+    })
 }

@@ -6,7 +6,7 @@ use super::Motion;
 use super::task::{Place, Task};
 
 /// Arcs, where the motion meets limits, and where bands are as full as is tolerated.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Structure {
     pub(super) arcs: Vec<Arc>,
     pub(super) contacts: Vec<Contact>,
@@ -174,7 +174,8 @@ fn contacts(task: &Task, arcs: &[Arc], blur: Blur) -> Option<Vec<Contact>> {
     let motion = Motion::new(task.from, arcs)?;
     let mut contacts = Vec::new();
     let steepest = motion.states().map(|state| state.acceleration.abs()).fold(0.0, f64::max);
-    let near = |value: f64, limit: f64, part: f64| (value - limit).abs() <= part * limit.abs();
+    let near =
+        |value: f64, limit: f64, part: f64| limit.is_finite() && (value - limit).abs() <= part * limit.abs();
     let velocities = [task.velocity.upper, task.velocity.lower];
     let accelerations = [task.acceleration.upper, task.acceleration.lower];
     for (arc, (state, stretch)) in motion.states().zip(arcs).enumerate() {

@@ -8,11 +8,15 @@ use super::{MOST_MODES, Request, Robustness};
 
 /// What is aimed for in a band, as a part of what is tolerated: the rest is what the certificate cannot tell.
 const AIM: f64 = 1.0 - 2e-4;
+/// A part of what is tolerated that a solver can tell.
+const VISIBLE: f64 = 3e-5;
+/// A distance of two poles, as a part of the frequency, of which the square is nothing.
+const SAME: f64 = 3e-7;
 /// Places of a band at which it is kept on a grid.
 const PLACES: usize = 5;
 
 /// A mode of which a band of frequency may be left with a tolerated amplitude.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Band {
     /// Pole in the middle.
     pole: Complex<f64>,
@@ -49,7 +53,7 @@ impl Band {
 }
 
 /// A pole and what its response to the jerk may be at the end.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     pub(super) pole: Complex<f64>,
     pub(super) tolerated: f64,
@@ -76,7 +80,7 @@ impl Place {
 
 /// A motion upwards with the duration of the S-curve as the unit of time and the distance (or the change of velocity
 /// times that unit) as the unit of length.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Task {
     pub(super) velocity: Interval,
     pub(super) acceleration: Interval,
@@ -94,6 +98,21 @@ pub(super) struct Task {
     pub(super) time: f64,
     /// m, negative for a motion downwards.
     pub(super) length: f64,
+}
+
+/// The modes, those that are the same but for what a double zero covers once, and whether there was more than one.
+fn distinct(modes: &[Mode]) -> Vec<(Mode, bool)> {
+    let mut distinct: Vec<(Mode, bool)> = Vec::new();
+    for mode in modes {
+        let same = |(other, _): &&mut (Mode, bool)| {
+            (other.pole() - mode.pole()).norm() <= SAME * other.angular_frequency()
+        };
+        match distinct.iter_mut().find(same) {
+            Some((_, twice)) => *twice = true,
+            None => distinct.push((*mode, false)),
+        }
+    }
+    distinct
 }
 
 impl Task {
@@ -131,10 +150,11 @@ impl Task {
         };
         let mut longest = 1.0;
         let (mut zeros, mut bands) = (Vec::new(), Vec::new());
-        for mode in modes {
+        let modes = distinct(modes);
+        for (mode, twice) in &modes {
             let (pole, half) = (mode.pole() * time, 0.5 * mode.damped_period() / time);
             match robustness {
-                Robustness::None => zeros.push(Zero::at(pole, false)),
+                Robustness::None => zeros.push(Zero::at(pole, *twice)),
                 Robustness::DoubleZero => zeros.push(Zero::at(pole, true)),
                 Robustness::Band { half_width, residual } => {
                     if !(half_width > 0.0 && half_width < 1.0) {
@@ -152,7 +172,7 @@ impl Task {
             longest += match robustness {
                 Robustness::None => half,
                 Robustness::DoubleZero => 2.0 * half,
-                Robustness::Band { .. } => 6.0 * half,
+                Robustness::Band { .. } => 8.0 * half,
             };
         }
         let task = Self {
@@ -171,9 +191,9 @@ impl Task {
         Ok((task, s_curve))
     }
 
-    /// Whether nothing is asked of modes.
-    pub(super) fn is_trivial(&self) -> bool {
-        self.zeros.is_empty() && self.bands.is_empty()
+    /// Adds places on a grid at which more is left of a band than is tolerated.
+    pub(super) fn add_places(&mut self, peaks: Vec<Place>, arcs: &[Arc]) {
+        self.places.extend(peaks.into_iter().filter(|place| place.part(arcs) > 1.0 + VISIBLE));
     }
 
     /// The larger of the limits of the jerk.

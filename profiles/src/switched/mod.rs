@@ -3,9 +3,11 @@
 mod motion;
 mod newton;
 mod states;
+mod table;
 mod zero;
 
 pub use states::{Condition, SwitchState};
+pub use table::{MoveFamily, MoveTable, MoveTableError, Run};
 pub use zero::Zero;
 
 /// A stretch of constant jerk.
@@ -64,6 +66,15 @@ impl Contact {
             Self::Turn { value, .. } => Self::Turn { arc, value },
         }
     }
+
+    /// The same contact of a motion times a factor.
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Acceleration { arc, value } => Self::Acceleration { arc, value: factor * value },
+            Self::Velocity { arc, value } => Self::Velocity { arc, value: factor * value },
+            Self::Turn { arc, value } => Self::Turn { arc, value: factor * value },
+        }
+    }
 }
 
 /// Where a motion ends: without acceleration, at a velocity, and for a move at a distance.
@@ -120,7 +131,7 @@ impl<const N: usize> Switched<N> {
     /// Sum of the durations, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
-        self.arcs().iter().map(|arc| arc.duration).sum()
+        self.arcs().iter().fold(0.0, |sum, arc| sum + arc.duration)
     }
 
     /// Instants at which the jerk jumps, the start and the end among them.
