@@ -36,37 +36,29 @@ pub(super) struct Found {
     pub(super) multipliers: Option<Vec<f64>>,
 }
 
-/// The optimum near a structure; if it is not reached, the shortest motion on the way there that meets all that is asked. A
-/// sequence of programmes may come to the aid of Newton's method so many times.
-pub(super) fn exchanged(
-    task: &Task,
-    start: Structure,
-    known: Option<&[f64]>,
-    rescues: usize,
-) -> Option<Found> {
+/// The optimum near a structure; if it is not reached, the shortest motion on the way there that meets all that is asked.
+/// With aid a sequence of programmes brings the structure closer where Newton's method alone does not get there.
+pub(super) fn exchanged(task: &Task, start: Structure, known: Option<&[f64]>, aided: bool) -> Option<Found> {
+    let alone = unaided(task, start.clone(), known);
+    if !aided || start.arcs.len() > AIDED || alone.as_ref().is_some_and(Found::is_proven) {
+        return alone;
+    }
+    let Some(closer) = rescued(task, &start) else { return alone };
+    let found = [exact(task, &closer), unaided(task, closer, None)];
+    found.into_iter().flatten().fold(alone, |best, found| Some(shorter(best, found)))
+}
+
+fn unaided(task: &Task, start: Structure, known: Option<&[f64]>) -> Option<Found> {
     let mut structure = start;
     let mut known = known;
     let mut best: Option<Found> = None;
-    let mut rescues = rescues;
     let mut added = None;
     for _ in 0..EXCHANGES {
-        let Some(optimum) = stationary(task, &structure, known.take()) else {
-            if rescues == 0 || structure.arcs.len() > AIDED {
-                break;
-            }
-            rescues -= 1;
-            let Some(rescued) = rescued(task, &structure) else { break };
-            structure = rescued;
-            if let Some(found) = exact(task, &structure) {
-                best = Some(shorter(best, found));
-            }
-            continue;
-        };
+        let Some(optimum) = stationary(task, &structure, known.take()) else { break };
         structure.arcs = optimum.motion.arcs().to_vec();
         let durations = structure.arcs.iter().enumerate().map(|(index, arc)| (index, arc.duration));
-        if let Some((index, _)) =
-            durations.filter(|(_, d)| *d < SHORTEST).min_by(|(_, a), (_, b)| a.total_cmp(b))
-        {
+        let short = durations.filter(|(_, d)| *d < SHORTEST).min_by(|(_, a), (_, b)| a.total_cmp(b));
+        if let Some((index, _)) = short {
             // A limit that is passed without a stay and needs a negative one is touched.
             structure =
                 if added == Some(index) { structure.touching(index) } else { structure.without(index) };
@@ -91,6 +83,12 @@ pub(super) fn exchanged(
         }
     }
     best
+}
+
+impl Found {
+    pub(super) fn is_proven(&self) -> bool {
+        self.multipliers.is_some()
+    }
 }
 
 /// Of two motions the shorter one; of two that last as long, but for a billionth, the one with fewer switches.

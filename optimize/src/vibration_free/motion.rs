@@ -45,6 +45,14 @@ impl VibrationFreeMove {
         robustness: Robustness,
     ) -> Result<Self, VibrationFreeError> {
         let (task, s_curve) = Task::new(&request, limits, modes, robustness)?;
+        if s_curve.duration() == 0.0 {
+            let nothing = Found {
+                structure: Structure::default(),
+                motion: Motion::default(),
+                multipliers: Some(vec![]),
+            };
+            return Self::in_units(task, nothing, request, limits, modes, robustness, 0.0);
+        }
         let found = match free_already(&task, &s_curve) {
             Some(found) => found,
             None => searched(&task)?,
@@ -64,19 +72,20 @@ impl VibrationFreeMove {
         let request = Request::Move { distance };
         let anew = || Self::planned(request, &self.limits, &self.modes, self.robustness);
         let ratio = distance / before;
-        if !(ratio > 0.0 && ratio.is_finite()) || self.found.multipliers.is_none() {
+        if !(ratio > 0.0 && ratio.is_finite()) || !self.found.is_proven() {
             return anew();
         }
         let s_curve = SCurve::rest_to_rest(distance, &self.limits)?;
         let mut task = self.task.clone();
-        task.goal.distance = Some(ratio);
+        // Units are those of the first move.
+        task.goal.distance = task.goal.distance.map(|before| before * ratio);
         task.bands.iter_mut().for_each(|band| band.scale(ratio));
         task.places = task.bands.iter().flat_map(|band| band.places()).collect();
         let mut structure = self.found.structure.clone();
         structure.arcs = self.found.motion.arcs().to_vec();
         structure.places.iter_mut().for_each(|place| place.tolerated *= ratio);
-        match exchanged(&task, structure, self.found.multipliers.as_deref(), 0) {
-            Some(found) if found.multipliers.is_some() => {
+        match exchanged(&task, structure, self.found.multipliers.as_deref(), false) {
+            Some(found) if found.is_proven() => {
                 let (limits, modes) = (&self.limits, &self.modes);
                 Self::in_units(task, found, request, limits, modes, self.robustness, s_curve.duration())
                     .or_else(|_| anew())
@@ -264,7 +273,7 @@ impl VibrationFreeMove {
     /// was found.
     #[must_use]
     pub fn is_proven(&self) -> bool {
-        self.found.multipliers.is_some()
+        self.found.is_proven()
     }
 }
 

@@ -98,20 +98,37 @@ fn cleared(task: &Task, stretches: &[Stretch]) -> Vec<Arc> {
     arcs
 }
 
+/// Full up, full down, none, or a part of its own.
+fn level(task: &Task, found: &OnGrid, k: usize) -> i64 {
+    let jerk = found.jerk.get(k).copied().unwrap_or(0.0);
+    let part = jerk / task.full(jerk);
+    if part < LEVEL {
+        0
+    } else if part > 1.0 - LEVEL {
+        if jerk > 0.0 { 1 } else { -1 }
+    } else {
+        k as i64 + 2
+    }
+}
+
+/// The lengths of runs of cells in which the jerk is the same.
+pub(super) fn runs(task: &Task, found: &OnGrid) -> Vec<f64> {
+    let mut runs: Vec<f64> = Vec::new();
+    let mut before = None;
+    for (k, cell) in found.cells.iter().enumerate() {
+        let here = level(task, found, k);
+        match runs.last_mut() {
+            Some(run) if before == Some(here) => *run += cell,
+            _ => runs.push(*cell),
+        }
+        before = Some(here);
+    }
+    runs
+}
+
 /// The cells again, those near a switch cut in `parts`.
 pub(super) fn refined(task: &Task, found: &OnGrid, parts: usize) -> Vec<f64> {
-    // Full up, full down, none, or a part of its own.
-    let level = |k: usize| {
-        let jerk = found.jerk.get(k).copied().unwrap_or(0.0);
-        let part = jerk / task.full(jerk);
-        if part < LEVEL {
-            0
-        } else if part > 1.0 - LEVEL {
-            if jerk > 0.0 { 1 } else { -1 }
-        } else {
-            k as i64 + 2
-        }
-    };
+    let level = |k: usize| level(task, found, k);
     let last = found.cells.len().saturating_sub(1);
     let mut cells = Vec::new();
     for (k, cell) in found.cells.iter().enumerate() {

@@ -26,7 +26,11 @@ const PARTS: usize = 3;
 const NEAR: f64 = 3e-3;
 /// And one that tells the structure.
 const TELLING: f64 = 0.1;
-/// Grids at which Newton's method gets aid, which takes longer than a finer grid.
+/// A distance that is none.
+const NOWHERE: f64 = 1e-12;
+/// The most grids.
+const ROUNDS: usize = 14;
+/// Of the grids that tell the structure, those at which Newton's method gets aid, which takes longer than a finer grid.
 const AIDED: &[usize] = &[3, 4, 5];
 /// The same for bands, with which a programme takes longer yet.
 const AIDED_WITH_BANDS: &[usize] = &[3, 5];
@@ -45,8 +49,10 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
     let mut last: Option<(f64, f64)> = None;
     let mut best: Option<Found> = None;
     let mut missed = f64::INFINITY;
+    let mut runs = vec![];
     let aided = if task.bands.is_empty() { AIDED } else { AIDED_WITH_BANDS };
-    for round in 0..=aided.iter().copied().max().unwrap_or(0) {
+    let mut told = 0;
+    for round in 0..ROUNDS {
         let unit = duration / cells.iter().sum::<f64>();
         let Some(found) = OnGrid::furthest(&task, cells.iter().map(|cell| cell * unit).collect()) else {
             break;
@@ -56,15 +62,15 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
         task.add_places(band::peaks(&task, &arcs), &arcs);
         missed = beyond.abs();
         if round > 0 && missed < TELLING {
+            told += 1;
             let structure = reading::structure(&task, &found);
-            match structure
-                .and_then(|structure| exchanged(&task, structure, None, usize::from(aided.contains(&round))))
-            {
-                Some(found) if found.multipliers.is_some() => return Ok(found),
+            match structure.and_then(|structure| exchanged(&task, structure, None, aided.contains(&told))) {
+                Some(found) if found.is_proven() => return Ok(found),
                 Some(found) => best = Some(shorter(best, found)),
                 None => {}
             }
         }
+        runs = reading::runs(&task, &found);
         if round == 0 || missed < NEAR {
             let finer = reading::refined(&task, &found, PARTS);
             if finer.len() <= FINEST {
@@ -76,23 +82,33 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
         } else {
             late = duration;
         }
-        // Distances grow with time about as fast as the fastest velocity.
-        let slope = last.map_or(2.0 / duration, |(before, value)| (beyond - value) / (duration - before));
-        last = Some((duration, beyond));
-        duration -= beyond / slope;
+        if aided.last().is_none_or(|last| told >= *last) {
+            break;
+        }
+        // Distances grow with a power of the time.
+        let here = (duration.ln(), found.reached.max(NOWHERE).ln());
+        let power = last.map_or(2.0, |before| (here.1 - before.1) / (here.0 - before.0));
+        last = Some(here);
+        duration *= (-here.1 / power).exp();
         if !(duration > early && duration < late) {
             duration = 0.5 * (early + late);
         }
     }
-    best.or_else(|| freely(&task, &cells, duration))
+    best.or_else(|| freely(&task, &runs, duration))
         .ok_or(VibrationFreeError::NotConverged { violation: missed })
 }
 
-/// A motion in little more than the shortest time whose jerk is not always full: on the cells of a grid, as few as a motion
-/// may have.
-fn freely(task: &Task, cells: &[f64], shortest: f64) -> Option<Found> {
-    let coarse = [1.0; MOST_ARCS];
-    let grid = if cells.len() <= MOST_ARCS { cells } else { &coarse };
+/// A motion in little more than the shortest time whose jerk is not always full: with the runs of a grid, or equal ones
+/// where these are more than a motion may have.
+fn freely(task: &Task, runs: &[f64], shortest: f64) -> Option<Found> {
+    let equal = [1.0; MOST_ARCS];
+    [runs, &equal]
+        .into_iter()
+        .filter(|grid| grid.len() <= MOST_ARCS)
+        .find_map(|grid| on(task, grid, shortest))
+}
+
+fn on(task: &Task, grid: &[f64], shortest: f64) -> Option<Found> {
     let sum: f64 = grid.iter().sum();
     let mut task = task.clone();
     LONGER.iter().find_map(|longer| {

@@ -101,6 +101,13 @@ pub struct Switched<const N: usize> {
     from: f64,
 }
 
+impl<const N: usize> Default for Switched<N> {
+    /// No motion at all.
+    fn default() -> Self {
+        Self { arcs: [Arc::default(); N], len: 0, from: 0.0 }
+    }
+}
+
 impl<const N: usize> Switched<N> {
     /// A motion from the velocity `from`, m/s, through `arcs`; none where there are more than `N` of them or a number is
     /// not finite. A negative duration is taken algebraically: the motion goes back in time.
