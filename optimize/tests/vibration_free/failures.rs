@@ -163,6 +163,16 @@ fn a_long_cruise_is_planned() {
 }
 
 #[test]
+fn modes_that_the_s_curve_nearly_leaves_at_rest_are_planned() {
+    // 40 Hz without damping is left at rest by each of the three averages of the S-curve.
+    for z in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9] {
+        for hz in [39.9, 40.0, 40.001] {
+            right(&format!("{hz} Hz, {z}"), &one(hz, z), Robustness::None).expect("plan");
+        }
+    }
+}
+
+#[test]
 fn extreme_numbers_are_right_or_refused() {
     for distance in [1e-300, 1e-150, 1e-30, 1e-12, 1e-6, 1e3, 1e6, 1e12, 1e30, 1e150, 1e300] {
         for sign in [1.0, -1.0] {
