@@ -119,7 +119,7 @@ fn no_longer(
     part: f64,
     grid: f64,
 ) -> Result<(), TestCaseError> {
-    let planned = task.plan(robustness).duration();
+    let planned = task.planned(robustness)?.duration();
     // Where a programme gets there in less time there is a shorter move than the planned one.
     let early = reached(task, robustness, planned / (1.0 + part), n);
     prop_assert!(early < 1.0, "planned {planned}, on a grid {early} of the distance in {part} less");

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use optimize::vibration_free::{Robustness, VibrationFreeMove, plan};
+use optimize::vibration_free::{Robustness, VibrationFreeMove};
 use profiles::{Chain, Interval, Mode, Profile, SCurve, residual_vibration};
 use proptest::prelude::*;
 
@@ -10,8 +10,7 @@ use super::tasks::{Task, a_request, a_task, at_rest, config, sections, sound, ze
 
 /// All that is asked of a planned move.
 fn all_that_is_asked(task: &Task, robustness: Robustness) -> Result<VibrationFreeMove, TestCaseError> {
-    let planned = plan(task.distance, &task.limits, &task.modes, robustness);
-    let planned = planned.map_err(|error| TestCaseError::fail(error.to_string()))?;
+    let planned = task.planned(robustness)?;
     sound(&planned, &task.limits, 0.0, 0.0, Some(task.distance))?;
     at_rest(&planned, &task.modes, |_| task.distance.abs())?;
     let (duration, s_curve, shaped) = (planned.duration(), task.s_curve(), task.shaped(robustness));
@@ -61,15 +60,15 @@ proptest! {
 
     #[test]
     fn two_zeros_of_a_mode_take_no_less_than_one(task in a_task(1, true)) {
-        let one = task.plan(Robustness::None);
-        let two = task.plan(Robustness::DoubleZero);
+        let one = task.planned(Robustness::None)?;
+        let two = task.planned(Robustness::DoubleZero)?;
         prop_assert!(two.duration() >= one.duration() * (1.0 - 1e-9), "{} {}", two.duration(), one.duration());
     }
 
     #[test]
     fn a_mode_more_never_makes_it_shorter(task in a_task(2, true)) {
-        let all = task.plan(Robustness::None);
-        let fewer = Task { modes: task.modes[1..].to_vec(), ..task.clone() }.plan(Robustness::None);
+        let all = task.planned(Robustness::None)?;
+        let fewer = Task { modes: task.modes[1..].to_vec(), ..task.clone() }.planned(Robustness::None)?;
         prop_assert!(all.duration() >= fewer.duration() * (1.0 - 1e-9), "{} {}", all.duration(), fewer.duration());
     }
 
@@ -93,7 +92,7 @@ proptest! {
         time in -20_i32..20,
     ) {
         let (length, time) = (2.0_f64.powi(length), 2.0_f64.powi(time));
-        let one = task.plan(robustness).duration();
+        let one = task.planned(robustness)?.duration();
         let scaled = task.scaled(length, time);
         let other = all_that_is_asked(&scaled, robustness)?.duration();
         prop_assert!((one * time - other).abs() <= 1e-9 * other, "{} {}", one * time, other);
@@ -101,7 +100,7 @@ proptest! {
 
     #[test]
     fn directions_do_not_matter(task in a_task(1, true), robustness in zeros()) {
-        let one = task.plan(robustness).duration();
+        let one = task.planned(robustness)?.duration();
         let back = Task { distance: -task.distance, limits: task.limits.mirrored(), ..task };
         let other = all_that_is_asked(&back, robustness)?.duration();
         prop_assert!((one - other).abs() <= 1e-9 * one, "{one} {other}");
@@ -115,8 +114,8 @@ proptest! {
             1 => task.limits.with_acceleration(wider(task.limits.acceleration())),
             _ => task.limits.with_jerk(wider(task.limits.jerk())),
         };
-        let wide = Task { limits: limits.expect("limits"), ..task.clone() }.plan(Robustness::None);
-        let narrow = task.plan(Robustness::None);
+        let wide = Task { limits: limits.expect("limits"), ..task.clone() }.planned(Robustness::None)?;
+        let narrow = task.planned(Robustness::None)?;
         prop_assert!(wide.duration() <= narrow.duration() * (1.0 + 1e-9),
             "{} {}", wide.duration(), narrow.duration());
     }

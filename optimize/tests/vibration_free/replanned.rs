@@ -19,11 +19,11 @@ fn factor() -> impl Strategy<Value = f64> {
 
 fn same(one: &Task, factor: f64, robustness: Robustness) -> Result<(), TestCaseError> {
     let other = Task { distance: one.distance * factor, ..one.clone() };
-    let warm = one.plan(robustness).replanned(other.distance);
+    let warm = one.planned(robustness)?.replanned(other.distance);
     let warm = warm.map_err(|error| TestCaseError::fail(error.to_string()))?;
     sound(&warm, &other.limits, 0.0, 0.0, Some(other.distance))?;
     at_rest(&warm, &other.modes, |_| other.distance.abs())?;
-    let cold = other.plan(robustness);
+    let cold = other.planned(robustness)?;
     let (warm_t, cold_t) = (warm.duration(), cold.duration());
     if warm.is_proven() && cold.is_proven() {
         prop_assert!((warm_t - cold_t).abs() <= 1e-9 * cold_t, "{warm_t} {cold_t}");

@@ -43,6 +43,12 @@ impl Task {
         plan(self.distance, &self.limits, &self.modes, robustness).expect("plan")
     }
 
+    /// The same within a property, which fails with the task.
+    pub(crate) fn planned(&self, robustness: Robustness) -> Result<VibrationFreeMove, TestCaseError> {
+        plan(self.distance, &self.limits, &self.modes, robustness)
+            .map_err(|error| TestCaseError::fail(error.to_string()))
+    }
+
     /// With other units of length and time.
     pub(crate) fn scaled(&self, length: f64, time: f64) -> Self {
         let scale = |bounds: Interval, order: i32| {
@@ -107,11 +113,13 @@ pub(crate) fn zeros() -> impl Strategy<Value = Robustness> {
     prop_oneof![2 => Just(Robustness::None), 1 => Just(Robustness::DoubleZero)]
 }
 
-/// Zeros of up to four modes, or double ones of up to two.
+/// Zeros of up to four modes, or double ones of up to two; mostly of one, which is soon planned.
 pub(crate) fn a_request() -> impl Strategy<Value = (Task, Robustness)> {
     prop_oneof![
-        3 => (a_task(4, true), Just(Robustness::None)),
-        1 => (a_task(1, true), Just(Robustness::DoubleZero)),
+        4 => (a_task(1, true), Just(Robustness::None)),
+        2 => (a_task(2, true), Just(Robustness::None)),
+        1 => (a_task(4, true), Just(Robustness::None)),
+        2 => (a_task(1, true), Just(Robustness::DoubleZero)),
         1 => (a_task(2, true), Just(Robustness::DoubleZero)),
     ]
 }
