@@ -92,11 +92,11 @@ pub struct OwnedMoveTable<const N: usize> {
 ///
 /// let limits = Limits::new(0.5, 5.0, 200.0)?;
 /// let mode = Mode::from_hz(8.0, 0.02)?;
-/// let owned = plan_table::<24>(0.05, 0.2, &limits, &[mode], Robustness::None, TABLE_TOLERANCE)?;
+/// let owned = plan_table::<24>(0.1, 0.12, &limits, &[mode], Robustness::None, TABLE_TOLERANCE)?;
 /// let table = owned.as_table()?;
-/// let motion = table.rest_to_rest(-0.1234)?;
-/// assert!(residual_vibration(&motion, mode) < 1e-12 * 0.1234);
-/// assert_eq!(motion.sample(motion.duration()).position, -0.1234);
+/// let motion = table.rest_to_rest(-0.1034)?;
+/// assert!(residual_vibration(&motion, mode) < 1e-12 * 0.1034);
+/// assert_eq!(motion.sample(motion.duration()).position, -0.1034);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -308,8 +308,8 @@ impl<const N: usize> OwnedMoveTable<N> {
         MoveTable::new(self.as_family(), &self.limits, &self.modes, self.double)
     }
 
-    /// Writes the numbers as a Rust `static` of the type [`MoveFamily`], every one with the fewest digits that read back as
-    /// the same.
+    /// Writes the numbers as a module of Rust with a `static` of the type [`MoveFamily`], every one with the fewest digits
+    /// that read back as the same.
     ///
     /// # Errors
     /// A name that is no identifier in capitals, or whatever the writer reports.
@@ -319,6 +319,8 @@ impl<const N: usize> OwnedMoveTable<N> {
         if !(starts && letters.all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == b'_')) {
             return Err(MoveTableBuildError::Name);
         }
+        let contact = if self.contacts.is_empty() { "" } else { "Contact, " };
+        writeln!(out, "use profiles::switched::{{{contact}MoveFamily, Run}};\n")?;
         let (first, last) = (self.distances.first(), self.distances.last());
         let range = Interval::new(first.copied().unwrap_or(0.0), last.copied().unwrap_or(0.0));
         let (moves, most) = (self.distances.len(), self.runs.iter().map(|run| run.arcs).max().unwrap_or(0));
