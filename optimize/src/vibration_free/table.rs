@@ -122,8 +122,8 @@ pub fn plan_table<const N: usize>(
         return Err(MoveTableBuildError::Band(half_width));
     }
     let gaps = (ratio.ln() / RATIO.ln()).ceil();
-    let distances = (1..=gaps as usize)
-        .map(|k| if k as f64 == gaps { longest } else { shortest * ratio.powf(k as f64 / gaps) });
+    let between = (1..gaps as usize).map(|k| shortest * ratio.powf(k as f64 / gaps));
+    let distances = between.chain([longest]);
     let asked = Asked { limits, modes, robustness, tolerance };
     let mut moves = vec![Planned::new(plan(shortest, limits, modes, robustness)?)];
     for distance in distances {
