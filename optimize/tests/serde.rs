@@ -9,10 +9,13 @@ use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{Error, Executor, State};
 use argmin::core::{KV, PopulationState};
 use common::{Function, RASTRIGIN};
+use optimize::vibration_free::{OwnedMoveTable, Robustness, plan_table};
 use optimize::{
     Boundary, Breeding, Crossover, FitnessWeights, GeneticOptions, GeneticSwarm, Mutation, ParticleSwarm,
     Schedule, Stall, Swarm, SwarmOptions, Topology,
 };
+use profiles::switched::MoveTable;
+use profiles::{Limits, Mode, Profile};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -187,4 +190,21 @@ fn uncertain_modes_and_tasks_read_as_written_and_bad_ones_are_refused() {
     let task = optimize::MoveTask { distance: 0.1, limits, tolerated: 1e-4, deviations: 3.0 };
     let text = serde_json::to_string(&task).expect("writes");
     assert_eq!(serde_json::from_str::<optimize::MoveTask>(&text).expect("reads"), task);
+}
+
+#[test]
+fn a_table_of_moves_is_read_as_it_was_written() {
+    let limits = Limits::new(0.5, 5.0, 200.0).expect("limits");
+    let mode = Mode::from_hz(8.0, 0.02).expect("mode");
+    let owned: OwnedMoveTable<16> =
+        plan_table(0.1, 0.11, &limits, &[mode], Robustness::None, 1e-2).expect("built");
+    let text = serde_json::to_string(&owned).expect("written");
+    let read: OwnedMoveTable<16> = serde_json::from_str(&text).expect("read");
+    let (read, owned) = (read.as_table().expect("checked"), owned.as_table().expect("built"));
+    let duration = |table: &MoveTable<'_, 16>| table.rest_to_rest(0.1034).expect("within").duration();
+    // A number of JSON may be read with another last bit.
+    assert!((duration(&read) - duration(&owned)).abs() < 1e-14);
+    let other = text.replace("\"double\":false", "\"double\":true");
+    let other: OwnedMoveTable<16> = serde_json::from_str(&other).expect("read");
+    assert!(other.as_table().is_err());
 }

@@ -11,7 +11,7 @@ use super::{Robustness, VibrationFreeError, VibrationFreeMove, plan};
 /// What a move of a table may last longer than the planned one, as a part of it, unless another tolerance is asked for.
 pub const TABLE_TOLERANCE: f64 = 1e-3;
 /// Ratio of neighbouring distances to start with.
-const RATIO: f64 = 1.25;
+const RATIO: f64 = 1.1;
 /// Places between two neighbours at which a table is compared with what is planned there, as parts of the difference.
 const PLACES: [f64; 3] = [0.5, 0.25, 0.75];
 /// Neighbours closer than this, as a part of their distance, are no longer compared.
@@ -81,9 +81,10 @@ pub struct OwnedMoveTable<const N: usize> {
 /// A table of the shortest moves over signed distances from `shortest` to `longest`, m, that leave nothing of up to four
 /// modes, for a controller that has no time to [`plan`] them: [`MoveTable::rest_to_rest`] interpolates and corrects.
 ///
-/// Moves are planned at distances a quarter apart and then in between, until at the quarters of every gap the table's move
-/// lasts no longer than the planned one but for a part `tolerance` of it ([`TABLE_TOLERANCE`] unless there is a reason).
-/// `N` is the number of arcs there is room for: 16 is enough for most moves of one mode.
+/// Moves are planned at distances a tenth apart and then in between, until at the quarters of every gap between moves of the
+/// same structure the table's move lasts no longer than the planned one but for a part `tolerance` of it, and in every other
+/// gap the longer move itself lasts no longer than the shorter one but for that part ([`TABLE_TOLERANCE`] unless there is a reason).
+/// `N` is the number of arcs there is room for: 24 is enough for most moves of one mode.
 ///
 /// ```
 /// use optimize::vibration_free::{Robustness, TABLE_TOLERANCE, plan_table};
@@ -91,11 +92,11 @@ pub struct OwnedMoveTable<const N: usize> {
 ///
 /// let limits = Limits::new(0.5, 5.0, 200.0)?;
 /// let mode = Mode::from_hz(8.0, 0.02)?;
-/// let owned = plan_table::<16>(0.05, 0.2, &limits, &[mode], Robustness::None, TABLE_TOLERANCE)?;
+/// let owned = plan_table::<24>(0.1, 0.12, &limits, &[mode], Robustness::None, TABLE_TOLERANCE)?;
 /// let table = owned.as_table()?;
-/// let motion = table.rest_to_rest(-0.1234)?;
-/// assert!(residual_vibration(&motion, mode) < 1e-12 * 0.1234);
-/// assert_eq!(motion.sample(motion.duration()).position, -0.1234);
+/// let motion = table.rest_to_rest(-0.1034)?;
+/// assert!(residual_vibration(&motion, mode) < 1e-12 * 0.1034);
+/// assert_eq!(motion.sample(motion.duration()).position, -0.1034);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -121,13 +122,21 @@ pub fn plan_table<const N: usize>(
         return Err(MoveTableBuildError::Band(half_width));
     }
     let gaps = (ratio.ln() / RATIO.ln()).ceil();
-    let distances = (1..=gaps as usize)
-        .map(|k| if k as f64 == gaps { longest } else { shortest * ratio.powf(k as f64 / gaps) });
+    let between = (1..gaps as usize).map(|k| shortest * ratio.powf(k as f64 / gaps));
+    let distances = between.chain([longest]);
+    let asked = Asked { limits, modes, robustness, tolerance };
     let mut moves = vec![Planned::new(plan(shortest, limits, modes, robustness)?)];
     for distance in distances {
-        let last = moves.last().ok_or(MoveTableBuildError::Range { shortest, longest })?;
-        let next = last.motion.replanned(distance)?;
-        moves.push(Planned::new(next));
+        let Some(last) = moves.last() else { continue };
+        // Both ways, as a search may end in an optimum of its neighbourhood.
+        let near = asked.near(&last.motion, distance);
+        match (plan(distance, limits, modes, robustness), near) {
+            (Ok(motion), near) => moves.push(Planned::new(motion).or_shorter(near.ok())),
+            (Err(_), Ok(near)) => moves.push(Planned::new(near)),
+            (Err(error), _) if distance.total_cmp(&longest).is_eq() => return Err(error.into()),
+            // A longer step over a distance that the search does not master.
+            _ => {}
+        }
     }
     let double = robustness == Robustness::DoubleZero;
     let family = |moves: &[Planned]| OwnedMoveTable::<N>::of(moves, limits, modes, double);
@@ -141,7 +150,7 @@ pub fn plan_table<const N: usize>(
             if below.checked {
                 continue;
             }
-            if let Some(planned) = longer(&table, below, above, tolerance)? {
+            if let Some(planned) = asked.longer(&table, below, above)? {
                 more.push((k + 1, planned));
             }
         }
@@ -177,34 +186,73 @@ impl Planned {
         let distance = motion.goal().distance.unwrap_or(0.0);
         Self { motion, distance, checked: false }
     }
-}
 
-/// The move in the middle of a gap, if somewhere in the gap the table's move lasts too long.
-fn longer<const N: usize>(
-    table: &MoveTable<'_, N>,
-    below: &Planned,
-    above: &Planned,
-    tolerance: f64,
-) -> Result<Option<Planned>, MoveTableBuildError> {
-    let gap = above.distance - below.distance;
-    let bound = below.motion.duration() * (1.0 + tolerance);
-    // No move lasts longer than the next one of the table.
-    if above.motion.duration() <= bound || gap.abs() <= CLOSE * above.distance.abs() {
-        return Ok(None);
-    }
-    let mut middle = None;
-    let mut long = false;
-    for part in PLACES {
-        let distance = below.distance + part * gap;
-        let planned = below.motion.replanned(distance)?;
-        let found = table.rest_to_rest(distance)?;
-        long |= found.duration() > planned.duration() * (1.0 + tolerance);
-        middle = middle.or(Some(planned));
-        if long {
-            break;
+    fn or_shorter(self, other: Option<VibrationFreeMove>) -> Self {
+        match other {
+            Some(motion) if motion.duration() < self.motion.duration() => Self { motion, ..self },
+            _ => self,
         }
     }
-    Ok(middle.filter(|_| long).map(Planned::new))
+}
+
+/// What is asked of all moves.
+struct Asked<'a> {
+    limits: &'a Limits,
+    modes: &'a [Mode],
+    robustness: Robustness,
+    tolerance: f64,
+}
+
+impl Asked<'_> {
+    /// The move over a distance near that of another one.
+    fn near(
+        &self,
+        known: &VibrationFreeMove,
+        distance: f64,
+    ) -> Result<VibrationFreeMove, VibrationFreeError> {
+        // Without modes it is a closed form.
+        if self.modes.is_empty() {
+            plan(distance, self.limits, self.modes, self.robustness)
+        } else {
+            known.replanned(distance)
+        }
+    }
+
+    /// A move within a gap than which the table's lasts too long.
+    fn longer<const N: usize>(
+        &self,
+        table: &MoveTable<'_, N>,
+        below: &Planned,
+        above: &Planned,
+    ) -> Result<Option<Planned>, MoveTableBuildError> {
+        let gap = above.distance - below.distance;
+        let bound = below.motion.duration() * (1.0 + self.tolerance);
+        // No move lasts longer than the next one of the table.
+        if above.motion.duration() <= bound || gap.abs() <= CLOSE * above.distance.abs() {
+            return Ok(None);
+        }
+        for part in PLACES {
+            let distance = below.distance + part * gap;
+            // A distance that the search does not master has the table's move.
+            let Ok(motion) = self.near(&below.motion, distance) else { continue };
+            let planned = Planned::new(motion).or_shorter(self.near(&above.motion, distance).ok());
+            // Where the structure changes, others may come and go between any two places.
+            let long = || -> Result<bool, MoveTableError> {
+                Ok(table.rest_to_rest(distance)?.duration()
+                    > planned.motion.duration() * (1.0 + self.tolerance))
+            };
+            if !same_structure(&below.motion, &above.motion) || long()? {
+                return Ok(Some(planned));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Whether two moves have the same jerks one after the other, and meet the same limits where.
+fn same_structure(a: &VibrationFreeMove, b: &VibrationFreeMove) -> bool {
+    let alike = a.arcs().iter().zip(b.arcs()).all(|(a, b)| a.jerk.total_cmp(&b.jerk).is_eq());
+    a.arcs().len() == b.arcs().len() && alike && a.contacts() == b.contacts()
 }
 
 impl<const N: usize> OwnedMoveTable<N> {
@@ -221,20 +269,15 @@ impl<const N: usize> OwnedMoveTable<N> {
         };
         let mut last: Option<&VibrationFreeMove> = None;
         for Planned { motion, distance, .. } in moves {
-            let jerks =
-                |motion: &VibrationFreeMove| motion.arcs().iter().map(|arc| arc.jerk).collect::<Vec<_>>();
-            let same = |last: &VibrationFreeMove| {
-                jerks(last) == jerks(motion) && last.contacts() == motion.contacts()
-            };
             match table.runs.last_mut() {
-                Some(run) if last.is_some_and(same) => run.moves += 1,
+                Some(run) if last.is_some_and(|last| same_structure(last, motion)) => run.moves += 1,
                 _ => {
                     table.runs.push(Run {
                         arcs: motion.arcs().len(),
                         contacts: motion.contacts().len(),
                         moves: 1,
                     });
-                    table.jerks.extend(jerks(motion));
+                    table.jerks.extend(motion.arcs().iter().map(|arc| arc.jerk));
                     table.contacts.extend(motion.contacts());
                 }
             }
@@ -265,8 +308,8 @@ impl<const N: usize> OwnedMoveTable<N> {
         MoveTable::new(self.as_family(), &self.limits, &self.modes, self.double)
     }
 
-    /// Writes the numbers as a Rust `static` of the type [`MoveFamily`], every one with the fewest digits that read back as
-    /// the same.
+    /// Writes the numbers as a module of Rust with a `static` of the type [`MoveFamily`], every one with the fewest digits
+    /// that read back as the same.
     ///
     /// # Errors
     /// A name that is no identifier in capitals, or whatever the writer reports.
@@ -276,6 +319,8 @@ impl<const N: usize> OwnedMoveTable<N> {
         if !(starts && letters.all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == b'_')) {
             return Err(MoveTableBuildError::Name);
         }
+        let contact = if self.contacts.is_empty() { "" } else { "Contact, " };
+        writeln!(out, "use profiles::switched::{{{contact}MoveFamily, Run}};\n")?;
         let (first, last) = (self.distances.first(), self.distances.last());
         let range = Interval::new(first.copied().unwrap_or(0.0), last.copied().unwrap_or(0.0));
         let (moves, most) = (self.distances.len(), self.runs.iter().map(|run| run.arcs).max().unwrap_or(0));

@@ -192,7 +192,7 @@ impl<'a, const N: usize> MoveTable<'a, N> {
     fn check_node(&self, group: &Group<'a>, node: &Node<'a>) -> Result<(), MoveTableError> {
         let Node { distance, durations } = *node;
         let lost = |residual: f64| MoveTableError::Residual { distance, residual };
-        if durations.iter().any(|duration| !(*duration >= 0.0)) {
+        if !durations.iter().all(|duration| *duration >= 0.0) {
             return Err(lost(f64::INFINITY));
         }
         let motion: Switched<N> =
