@@ -23,14 +23,16 @@ impl OnGrid {
         self.jerk.iter().zip(&self.cells).map(|(jerk, cell)| Arc { jerk: *jerk, duration: *cell }).collect()
     }
 
-    /// The furthest motion in the sum of `cells`, its jerk constant in each of them.
+    /// The furthest motion in the sum of `cells` (the largest change of velocity), its jerk constant in each of them.
     ///
     /// Unknown are jerk, acceleration and velocity at the grid. Acceleration is linear in a cell, so that its limit holds;
     /// velocity is a parabola whose middle Bernstein coefficient is kept within the limit too, so that it holds in between.
     pub(super) fn furthest(task: &Task, cells: Vec<f64>) -> Option<Self> {
         let n = cells.len();
         let moves = task.goal.distance.is_some();
-        let (j, a, v) = (|k: usize| k, |k: usize| n + k - 1, |k: usize| 2 * n - 1 + k - 1);
+        // Where the way is free it is the velocity at the start that is sought: that at the end may lie on its limit.
+        let (j, a) = (|k: usize| k, |k: usize| n + k - 1);
+        let v = |k: usize| if k == 0 { 3 * n - 2 } else { 2 * n - 1 + k - 1 };
         let unknowns = if moves { 3 * n - 2 } else { 3 * n - 1 };
         // Full jerk and the middle cell as units.
         let unit = cells.iter().sum::<f64>() / n as f64;
@@ -48,7 +50,7 @@ impl OnGrid {
                 }
             }
         } else {
-            cost[v(n)] = -1.0;
+            cost[v(0)] = 1.0;
         }
         let mut programme = Programme::new(cost);
         for (k, d) in steps.iter().enumerate() {
@@ -57,13 +59,15 @@ impl OnGrid {
             if k > 0 {
                 slope.terms.push((a(k), 1.0));
                 rise.terms.extend([(a(k), *d), (v(k), 1.0)]);
-            } else {
+            } else if moves {
                 rise.constant += from;
+            } else {
+                rise.terms.push((v(0), 1.0));
             }
             if k + 1 < n {
                 slope.terms.push((a(k + 1), -1.0));
             }
-            if k + 1 < n || !moves {
+            if k + 1 < n {
                 rise.terms.push((v(k + 1), -1.0));
             } else {
                 rise.constant -= task.goal.velocity / v_unit;
@@ -106,7 +110,8 @@ impl OnGrid {
         let (x, value) = programme.solved_to(1e-8)?;
         let first = steps.first().copied().unwrap_or(0.0);
         let jerk = x.iter().take(n).map(|j| j * j_unit).collect();
-        let reached = if moves { (from * first - value) * x_unit } else { -value * v_unit - task.from };
+        let reached =
+            if moves { (from * first - value) * x_unit } else { task.goal.velocity - value * v_unit };
         Some(Self { cells, jerk, reached })
     }
 }

@@ -74,7 +74,7 @@ impl VibrationFreeMove {
         let request = Request::Move { distance };
         let anew = || Self::planned(request, &self.limits, &self.modes, self.robustness);
         let ratio = distance / before;
-        if !(ratio > 0.0 && ratio.is_finite()) || !self.found.is_proven() {
+        if !(ratio > 0.0 && ratio.is_finite() && self.found.is_proven()) {
             return anew();
         }
         let s_curve = SCurve::rest_to_rest(distance, &self.limits)?;

@@ -8,7 +8,7 @@ use super::task::{Place, Task};
 use crate::programme::{Affine, Programme};
 
 /// Room left in limits for the last correction, as a part of them.
-const ROOM: f64 = 1e-8;
+const ROOM: f64 = 1e-6;
 /// What end and zeros may be missed by where the largest coefficient is one.
 const MISSED: f64 = 1e-12;
 /// Room left in what is tolerated of a band, as a part of it.
@@ -153,7 +153,7 @@ impl<'a> Runs<'a> {
             within(fast, self.task.from, self.task.velocity);
             within(middle, self.task.from, self.task.velocity);
         }
-        let (x, part) = programme.solved_to(1e-10)?;
+        let (x, part) = programme.solved_to(1e-9)?;
         (part <= 1.0 - ROOM).then(|| x.iter().take(n).map(|jerk| jerk * unit).collect())
     }
 

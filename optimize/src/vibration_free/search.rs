@@ -107,34 +107,27 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
         .ok_or(VibrationFreeError::NotConverged { violation: missed })
 }
 
-/// A motion in little more than the shortest time whose jerk is not always full: with the runs of a grid, or equal ones
-/// where these are more than a motion may have.
+/// A motion in little more than the shortest time whose jerk is not always full: with the runs of a grid, where these are no
+/// more than a motion may have, or equal ones.
 fn freely(task: &Task, runs: &[f64], shortest: f64) -> Option<Found> {
     let equal = [1.0; MOST_ARCS];
-    [runs, &equal]
-        .into_iter()
-        .filter(|grid| grid.len() <= MOST_ARCS)
-        .find_map(|grid| on(task, grid, shortest))
+    let grids = [runs, &equal].into_iter().filter(|grid| grid.len() <= MOST_ARCS);
+    LONGER.iter().find_map(|longer| grids.clone().find_map(|grid| on(task, grid, shortest * (1.0 + longer))))
 }
 
-fn on(task: &Task, grid: &[f64], shortest: f64) -> Option<Found> {
-    let sum: f64 = grid.iter().sum();
+/// A motion on a grid, of a duration.
+fn on(task: &Task, grid: &[f64], duration: f64) -> Option<Found> {
+    let unit = duration / grid.iter().sum::<f64>();
+    let cells: Vec<f64> = grid.iter().map(|cell| cell * unit).collect();
     let mut task = task.clone();
-    LONGER.iter().find_map(|longer| {
-        let unit = shortest * (1.0 + longer) / sum;
-        let cells: Vec<f64> = grid.iter().map(|cell| cell * unit).collect();
-        for _ in 0..FILLINGS {
-            let arcs = Runs::new(&task, cells.clone()).gentlest()?;
-            if band::is_kept(&task, &arcs) {
-                let motion = Motion::new(task.from, &arcs)?;
-                return Some(Found {
-                    structure: Structure { arcs, ..Structure::default() },
-                    motion,
-                    multipliers: None,
-                });
-            }
-            task.add_places(band::peaks(&task, &arcs), &arcs);
+    for _ in 0..FILLINGS {
+        let arcs = Runs::new(&task, cells.clone()).gentlest()?;
+        if band::is_kept(&task, &arcs) {
+            let motion = Motion::new(task.from, &arcs)?;
+            let structure = Structure { arcs, ..Structure::default() };
+            return Some(Found { structure, motion, multipliers: None });
         }
-        None
-    })
+        task.add_places(band::peaks(&task, &arcs), &arcs);
+    }
+    None
 }

@@ -57,8 +57,9 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
 
 impl<const N: usize> Switched<N> {
     /// The same structure with durations that meet the conditions to rounding, by Newton's method from the durations it
-    /// has. Where there are fewer conditions than arcs every step is the smallest one (in the sense of least squares), so
-    /// that the motion stays close to what it was: an optimum stays one but for the square of the correction.
+    /// has. Where there are fewer conditions than arcs every step is the smallest one (the least squares of its parts of the
+    /// durations), so that the motion stays close to what it was: an optimum stays one but for the square of the correction,
+    /// and a long arc takes more of it than a short one. An arc of no duration keeps it.
     ///
     /// None where the conditions are more than the arcs or depend on each other, where the method does not converge, or
     /// where a duration would be negative.
@@ -93,9 +94,16 @@ impl<const N: usize> Switched<N> {
     fn step(&self, goal: &Goal, zeros: &[Zero], contacts: &[Contact]) -> Option<[f64; N]> {
         let mut known = Conditions { rows: [[0.0; N]; N], weights: [0.0; N], len: 0 };
         let mut good = true;
+        let mut weights = [0.0; N];
+        weights.iter_mut().zip(self.arcs()).for_each(|(weight, arc)| *weight = arc.duration);
+        let weighted = |row: &[f64; N]| {
+            let mut row = *row;
+            row.iter_mut().zip(weights).for_each(|(x, weight)| *x *= weight);
+            row
+        };
         self.conditions(goal, zeros, contacts, |condition| {
-            good = good && known.add(&condition.gradient, condition.value).is_some();
+            good = good && known.add(&weighted(&condition.gradient), condition.value).is_some();
         });
-        (good && known.len <= self.len).then(|| known.solution())
+        (good && known.len <= self.len).then(|| weighted(&known.solution()))
     }
 }
