@@ -110,3 +110,34 @@ pub(super) fn saved(all: &[Vec<Judged>], plant: Plant, by: usize, over: usize) -
     let median = if saved.len() % 2 == 1 { saved[middle] } else { 0.5 * (saved[middle - 1] + saved[middle]) };
     (mean, median)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn judged(nominal: f64, off: f64) -> Judged {
+        Judged { duration: 0.1, nominal, off, left: (0.0, 0.0), disagreement: 0.0 }
+    }
+
+    #[test]
+    fn the_first_of_equals_wins() {
+        let all = [
+            judged(0.3, 0.9),
+            judged(0.2 + 0.5 * EQUAL, 0.5),
+            judged(0.2, 0.5),
+            judged(0.2, 0.5 - 2.0 * EQUAL),
+        ];
+        assert_eq!((winner(&all, Plant::Nominal), winner(&all, Plant::Off)), (1, 3));
+    }
+
+    #[test]
+    fn savings_by_hand() {
+        let all =
+            [(0.3, 0.1), (0.2, 0.3), (0.9, 0.2)].map(|(over, by)| vec![judged(over, 0.0), judged(by, 0.0)]);
+        // 0.2, -0.1 and 0.7
+        let (mean, median) = saved(&all, Plant::Nominal, 1, 0);
+        assert!((mean - 0.8 / 3.0).abs() < 1e-15 && (median - 0.2).abs() < 1e-15, "{mean} {median}");
+        let (_, median) = saved(&all[..2], Plant::Nominal, 1, 0);
+        assert!((median - 0.05).abs() < 1e-15, "{median}");
+    }
+}

@@ -24,7 +24,7 @@ pub(super) const FILE: &str = file!();
 /// microseconds.
 const STEP: f64 = 2.5e-4;
 /// Samples of the last period before the load is at rest.
-const TAIL: u32 = 200;
+const TAIL: u32 = 1000;
 /// What the swing of a low-pass has fallen to, as a part of itself, when nothing but the mode is left: for the settling time, and
 /// but for rounding.
 const SETTLED: f64 = 1e-5;
@@ -191,4 +191,77 @@ fn vibration<const N: usize>(axis: &TwoInertia, mode: Mode, state: &SVector<f64,
     let (from, speed) = (share * (state[2] - state[0]), share * (state[3] - state[1]));
     let phasor = Complex::new(speed, 0.0) - mode.pole().conj() * from;
     profiles::complex::norm(phasor) / mode.damped_angular_frequency()
+}
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+mod tests {
+    use super::*;
+    use crate::studies::zero_vibration::methods::METHODS;
+    use crate::studies::zero_vibration::setup::Task;
+    use plants::Plant as _;
+    use profiles::{Limits, Profile, SCurve, SnapLimited};
+
+    /// The load at some instants by Runge-Kutta's method, without sections, from what a profile samples.
+    fn by_runge_kutta(profile: &impl Profile, mode: Mode, times: &[f64]) -> Vec<f64> {
+        let axis = axis(mode).unwrap();
+        let mass = axis.motor_inertia() + axis.load_inertia();
+        let step = 2e-5;
+        let (mut now, mut state) = (0.0, SVector::<f64, 4>::zeros());
+        let slope = |t: f64, x: &SVector<f64, 4>| {
+            axis.derivative(x, &vector![mass * profile.sample(t).acceleration, 0.0])
+        };
+        times
+            .iter()
+            .map(|time| {
+                let count = ((time - now) / step).ceil().max(1.0);
+                let h = (time - now) / count;
+                for _ in 0..count as u32 {
+                    let a = slope(now, &state);
+                    let b = slope(now + 0.5 * h, &(state + 0.5 * h * a));
+                    let c = slope(now + 0.5 * h, &(state + 0.5 * h * b));
+                    let d = slope(now + h, &(state + h * c));
+                    state += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+                    now += h;
+                }
+                now = *time;
+                state[2]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn exact_steps_are_what_small_steps_come_to() {
+        let limits = Limits::new(0.5, 5.0, 200.0).and_then(|l| l.with_snap(2e4)).unwrap();
+        let mode = Mode::from_hz(8.0, 0.02).unwrap();
+        let watch = Watch { band: 1e-4, until: 0.5 };
+        fn agree(command: &Command, profile: &impl Profile, mode: Mode, watch: Watch) {
+            let course = course(command, mode, watch).unwrap();
+            let close = course.times.iter().take_while(|t| **t < watch.until).count();
+            let small = by_runge_kutta(profile, mode, &course.times[..close]);
+            for (exact, small) in course.load.iter().zip(small) {
+                // A jump of the jerk inside a step costs J h^3, a jump of the snap less.
+                assert!((exact - small).abs() < 200.0 * 2e-5_f64.powi(2) * 1e-2, "{exact} {small}");
+            }
+        }
+        let s_curve = SCurve::rest_to_rest(0.1, &limits).unwrap();
+        agree(&Command::new(s_curve), &s_curve, mode, watch);
+        let snap_limited = SnapLimited::rest_to_rest(0.1, &limits).unwrap();
+        agree(&Command::new(snap_limited), &snap_limited, mode, watch);
+    }
+
+    #[test]
+    fn the_time_of_settling_is_that_of_a_dense_record() {
+        let task = Task::new(0.1, 8.0, 0.1).unwrap();
+        for method in METHODS {
+            let command = method.plan(&task, 1).unwrap();
+            let mode = task.mode_at(0.9).unwrap();
+            let settled = |until| {
+                course(&command, mode, Watch { band: task.band(), until }).unwrap().settled(0.1, task.band())
+            };
+            let (jumped, dense) = (settled(0.0).unwrap(), settled(3.0).unwrap());
+            // Both are straight lines between samples.
+            assert!((jumped - dense).abs() < 1e-5, "{}: {jumped} {dense}", method.id);
+        }
+    }
 }

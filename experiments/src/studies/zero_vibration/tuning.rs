@@ -75,3 +75,28 @@ pub(super) fn low_pass(task: &Task, command: impl Fn() -> Result<Command>) -> Re
     }
     best.map(|(_, command)| command).context("no corner")
 }
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_swarm_is_as_good_as_a_dense_scan() {
+        for (length, hz, damping) in
+            [(0.1, 8.0, 0.02), (0.02, 12.0, 0.05), (0.005, 4.0, 0.1), (0.002, 40.0, 0.02)]
+        {
+            let task = Task::new(length, hz, damping).unwrap();
+            let shortest = FivePhase::rest_to_rest(length, &limits().unwrap()).unwrap().phase_time();
+            let scanned = (0..=500)
+                .map(|k| shortest + task.mode.damped_period() * f64::from(k) / 500.0)
+                .map(|phase| settled(&task, &Command::new(curve(&task, phase).unwrap())).unwrap())
+                .fold(f64::INFINITY, f64::min);
+            for seed in 1..4 {
+                let found = settled(&task, &five_phase(&task, seed).unwrap()).unwrap();
+                // A hundred candidates of a cost with many kinks.
+                assert!(found < 1.005 * scanned, "{task:?}: {found} {scanned}");
+            }
+        }
+    }
+}
