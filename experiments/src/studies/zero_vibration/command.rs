@@ -56,8 +56,8 @@ fn low_pass(corner: f64, s: Complex<f64>) -> Complex<f64> {
 pub(super) fn jerk_of(command: &Command) -> (Vec<(f64, f64)>, Vec<f64>) {
     let at = |section: &Section| section.at_local(0.0).jerk;
     let steps = command.sections.iter().flat_map(|s| [(s.start, at(s)), (s.end, at(s))]);
-    let switches = command.sections.windows(2).map(|pair| pair[1].start).collect();
-    (steps.collect(), switches)
+    let jumps = command.sections.windows(2).filter(|pair| at(&pair[0]).to_bits() != at(&pair[1]).to_bits());
+    (steps.collect(), jumps.map(|pair| pair[1].start).collect())
 }
 
 /// `left` in units of the move, for a distance that is a number.

@@ -194,7 +194,6 @@ fn vibration<const N: usize>(axis: &TwoInertia, mode: Mode, state: &SVector<f64,
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 mod tests {
     use super::*;
     use crate::studies::zero_vibration::methods::METHODS;

@@ -77,7 +77,6 @@ pub(super) fn low_pass(task: &Task, command: impl Fn() -> Result<Command>) -> Re
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 mod tests {
     use super::*;
 
