@@ -23,11 +23,11 @@ fn of(family: Family) -> impl Iterator<Item = (usize, &'static Method)> {
 
 /// Who is at rest soonest, over frequency and length of move.
 pub(super) fn map(tasks: &[Task], all: &[Vec<Judged>]) -> Figure {
-    let title = "Who is at rest soonest: move and settling to 0.1 % of the move";
+    let title = "Who is at rest soonest: length of the move over frequency, for damping ratios 0.02 and 0.1, the plant as told and 10 % off";
     let mut figure = Figure::new("map", title, Quantity::new("frequency of the mode", "f", "Hz"));
     for damping in DAMPINGS {
-        for (plant, words) in [(Plant::Nominal, "as told"), (Plant::Off, "±10 %, the slower one")] {
-            let name = format!("length of the move, damping ratio {damping}, frequency {words}");
+        for (plant, words) in [(Plant::Nominal, "as told"), (Plant::Off, "worse of ±10 %")] {
+            let name = format!("length, damping {damping}, {words}");
             let mut panel = Panel::new(Quantity::new(&name, "", "mm").logarithmic());
             for (n, method) in METHODS.iter().enumerate() {
                 let won = tasks.iter().zip(all).filter(|(task, judged)| {
@@ -48,12 +48,12 @@ pub(super) fn map(tasks: &[Task], all: &[Vec<Judged>]) -> Figure {
 /// What is left of a move by a plant whose frequency is not what was told.
 pub(super) fn sensitivity(task: &Task, seed: u64, samples: u32) -> Result<Figure> {
     let parts: Vec<f64> = (0..=samples).map(|k| 0.6 + 0.8 * f64::from(k) / f64::from(samples)).collect();
-    let title = "Vibration left at the end of a move of 100 mm, 8 Hz, damping ratio 0.02";
-    let x = Quantity::new("frequency of the plant over the one that was told", "", "");
+    let title = "Vibration left at the end of a move of 100 mm, 8 Hz, damping ratio 0.02, in % of the move";
+    let x = Quantity::new("frequency of the plant over the told one", "", "");
     let mut figure = Figure::new("sensitivity", title, x).own_legends();
     for family in FAMILIES {
-        let name = format!("vibration left, {}", family.name());
-        let mut panel = Panel::new(Quantity::new(&name, "", "% of the move").logarithmic())
+        let name = format!("left, {}", family.name());
+        let mut panel = Panel::new(Quantity::new(&name, "", "%").logarithmic())
             .limit(100.0 * BAND, "0.1 %")
             .band(1.0 - OFF, 1.0 + OFF, "");
         // The simplest on top: what is not told of a mode leaves much the same.
@@ -109,7 +109,7 @@ pub(super) fn jerk(task: &Task, seed: u64, ids: &[&str]) -> Result<Figure> {
 pub(super) fn courses(task: &Task, seed: u64, ids: &[&str]) -> Result<Figure> {
     let (from, to) = (0.25, 0.55);
     let title = "How far the load is from the target, 100 mm, 8 Hz, damping ratio 0.02";
-    let mut panel = Panel::new(Quantity::new("distance from the target", "", "% of the move").logarithmic())
+    let mut panel = Panel::new(Quantity::new("distance from the target", "", "% of move").logarithmic())
         .limit(100.0 * BAND, "0.1 %");
     let roles = [Role::Reference, Role::Second, Role::Third, Role::Fourth, Role::Fifth, Role::Ours];
     for (id, role) in ids.iter().zip(roles) {
