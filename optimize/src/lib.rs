@@ -4,11 +4,13 @@ mod cost;
 mod error;
 mod fitness;
 mod genetic;
+mod programme;
 mod recommend;
 pub mod reduction;
 pub mod shapers;
 mod simplex;
 mod swarm;
+pub mod vibration_free;
 
 pub use cost::Cost;
 pub use error::{FitnessError, SimplexError, SwarmError};

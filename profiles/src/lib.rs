@@ -17,6 +17,7 @@ mod pulses;
 mod quantities;
 mod section;
 mod stretch;
+pub mod switched;
 mod table;
 
 pub use chain::{Chain, Link};

@@ -1,8 +1,8 @@
 //! The structure of the shortest train, from amplitudes on a grid of times.
 
 use super::error::ShortestTrainError;
-use super::programme::{Affine, Programme};
 use super::task::{Task, Train};
+use crate::programme::{Affine, Programme};
 
 /// Instants of the grid.
 const INSTANTS: usize = 81;

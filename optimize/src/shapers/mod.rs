@@ -4,7 +4,6 @@ mod conditions;
 mod error;
 mod grid;
 mod polish;
-mod programme;
 mod task;
 
 pub use error::ShortestTrainError;

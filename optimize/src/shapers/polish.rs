@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 use profiles::Complex;
 
-use super::programme::{Affine, Programme};
 use super::task::{Place, Task, Train};
+use crate::programme::{Affine, Programme};
 
 /// Prices of a violation in units of time, one after the other until none is left: zeros of neighbouring modes are worth
 /// more time than most.

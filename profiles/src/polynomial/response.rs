@@ -123,6 +123,12 @@ fn sine_integrals(section: &Section, p: Complex<f64>) -> (Complex<f64>, Complex<
     ((ahead - behind) / (2.0 * i), (ahead + behind) * 0.5)
 }
 
+/// `phi_1` and `phi_2` of `z`.
+pub(crate) fn phi_1_2(z: Complex<f64>) -> (Complex<f64>, Complex<f64>) {
+    let [phi_1, phi_2, ..] = phi_functions(z);
+    (phi_1, phi_2)
+}
+
 /// `(e^z - 1) / z`.
 pub(crate) fn phi_1(z: Complex<f64>) -> Complex<f64> {
     let [phi_1, ..] = phi_functions(z);

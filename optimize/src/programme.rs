@@ -5,14 +5,14 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 
 /// One affine expression: `constant + sum of coefficient x_index`.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Affine {
-    pub(super) terms: Vec<(usize, f64)>,
-    pub(super) constant: f64,
+pub(crate) struct Affine {
+    pub(crate) terms: Vec<(usize, f64)>,
+    pub(crate) constant: f64,
 }
 
 /// Minimise a linear cost over affine expressions that are zero, not negative, or in a cone.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Programme {
+pub(crate) struct Programme {
     cost: Vec<f64>,
     zero: Vec<Affine>,
     positive: Vec<Affine>,
@@ -21,24 +21,29 @@ pub(super) struct Programme {
 }
 
 impl Programme {
-    pub(super) fn new(cost: Vec<f64>) -> Self {
+    pub(crate) fn new(cost: Vec<f64>) -> Self {
         Self { cost, ..Self::default() }
     }
 
-    pub(super) fn zero(&mut self, expression: Affine) {
+    pub(crate) fn zero(&mut self, expression: Affine) {
         self.zero.push(expression);
     }
 
-    pub(super) fn positive(&mut self, expression: Affine) {
+    pub(crate) fn positive(&mut self, expression: Affine) {
         self.positive.push(expression);
     }
 
-    pub(super) fn cone(&mut self, bound: Affine, re: Affine, im: Affine) {
+    pub(crate) fn cone(&mut self, bound: Affine, re: Affine, im: Affine) {
         self.cones.push([bound, re, im]);
     }
 
-    /// The minimiser, `None` where the solver found none.
-    pub(super) fn solved(&self) -> Option<Vec<f64>> {
+    /// The minimiser to eleven digits, `None` where the solver found none.
+    pub(crate) fn solved(&self) -> Option<Vec<f64>> {
+        self.solved_to(1e-11).map(|(x, _)| x)
+    }
+
+    /// The minimiser and the minimum to a tolerance, `None` where the solver found none.
+    pub(crate) fn solved_to(&self, tolerance: f64) -> Option<(Vec<f64>, f64)> {
         let (mut rows, mut columns, mut values, mut right) = (vec![], vec![], vec![], vec![]);
         let expressions = self.zero.iter().chain(&self.positive).chain(self.cones.iter().flatten());
         for (row, expression) in expressions.enumerate() {
@@ -60,9 +65,9 @@ impl Programme {
         let settings = DefaultSettings {
             verbose: false,
             max_threads: 1,
-            tol_gap_abs: 1e-11,
-            tol_gap_rel: 1e-11,
-            tol_feas: 1e-11,
+            tol_gap_abs: tolerance,
+            tol_gap_rel: tolerance,
+            tol_feas: tolerance,
             ..DefaultSettings::default()
         };
         let none = CscMatrix::zeros((n, n));
@@ -74,6 +79,6 @@ impl Programme {
             solution.status,
             SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress
         );
-        (ended && solution.x.iter().all(|x| x.is_finite())).then(|| solution.x.clone())
+        (ended && solution.x.iter().all(|x| x.is_finite())).then(|| (solution.x.clone(), solution.obj_val))
     }
 }

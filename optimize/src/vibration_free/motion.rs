@@ -1,0 +1,290 @@
+//! A planned motion, in units.
+
+use profiles::switched::{Arc, Contact, Goal, Switched, Zero};
+use profiles::{
+    Complex, Extrema, Limits, Mode, Piecewise, Profile, SCurve, Sample, Section, Sectioned,
+    residual_vibration,
+};
+
+use super::band;
+use super::error::VibrationFreeError;
+use super::exchange::{Found, exchanged};
+use super::search::searched;
+use super::structure::{Blur, Structure};
+use super::task::Task;
+use super::{MOST_ARCS, Motion, Request, Robustness};
+
+/// What a zero may leave, as a part of the motion.
+const EXACT: f64 = 1e-12;
+/// Parts by which a number may be off for rounding.
+const ROUNDING: f64 = 1e-12;
+/// What the S-curve is known by.
+const S_CURVE: Blur = Blur { shortest: 1e-12, acceleration: 1e-9, velocity: 1e-9, turn: 0.0 };
+
+/// The shortest motion that leaves nothing (or no more than is tolerated) of given modes, see [`plan`](super::plan).
+#[derive(Debug, Clone)]
+pub struct VibrationFreeMove {
+    profile: Piecewise<MOST_ARCS>,
+    motion: Switched<MOST_ARCS>,
+    contacts: Vec<Contact>,
+    goal: Goal,
+    task: Task,
+    found: Found,
+    request: Request,
+    limits: Limits,
+    modes: Vec<Mode>,
+    robustness: Robustness,
+    s_curve: f64,
+}
+
+impl VibrationFreeMove {
+    pub(super) fn planned(
+        request: Request,
+        limits: &Limits,
+        modes: &[Mode],
+        robustness: Robustness,
+    ) -> Result<Self, VibrationFreeError> {
+        let (task, s_curve) = Task::new(&request, limits, modes, robustness)?;
+        let found = match free_already(&task, &s_curve) {
+            Some(found) => found,
+            None => searched(&task)?,
+        };
+        Self::in_units(task, found, request, limits, modes, robustness, s_curve.duration())
+    }
+
+    /// The move over another distance within the same limits, from the switches of this one: in a small part of the time
+    /// that [`plan`](super::plan) takes where the structure is the same or nearly so, and by `plan` where it is not.
+    ///
+    /// # Errors
+    /// As [`plan`](super::plan), and for a change of velocity, which has no distance.
+    pub fn replanned(&self, distance: f64) -> Result<Self, VibrationFreeError> {
+        let Request::Move { distance: before } = self.request else {
+            return Err(VibrationFreeError::NoDistance(distance));
+        };
+        let request = Request::Move { distance };
+        let anew = || Self::planned(request, &self.limits, &self.modes, self.robustness);
+        let ratio = distance / before;
+        if !(ratio > 0.0 && ratio.is_finite()) || self.found.multipliers.is_none() {
+            return anew();
+        }
+        let s_curve = SCurve::rest_to_rest(distance, &self.limits)?;
+        let mut task = self.task.clone();
+        task.goal.distance = Some(ratio);
+        task.bands.iter_mut().for_each(|band| band.scale(ratio));
+        task.places = task.bands.iter().flat_map(|band| band.places()).collect();
+        let mut structure = self.found.structure.clone();
+        structure.arcs = self.found.motion.arcs().to_vec();
+        structure.places.iter_mut().for_each(|place| place.tolerated *= ratio);
+        match exchanged(&task, structure, self.found.multipliers.as_deref()) {
+            Some(found) if found.multipliers.is_some() => {
+                let (limits, modes) = (&self.limits, &self.modes);
+                Self::in_units(task, found, request, limits, modes, self.robustness, s_curve.duration())
+                    .or_else(|_| anew())
+            }
+            _ => anew(),
+        }
+    }
+
+    fn in_units(
+        task: Task,
+        found: Found,
+        request: Request,
+        limits: &Limits,
+        modes: &[Mode],
+        robustness: Robustness,
+        s_curve: f64,
+    ) -> Result<Self, VibrationFreeError> {
+        let goal = match request {
+            Request::Move { distance } => Goal { velocity: 0.0, distance: Some(distance) },
+            Request::Ramp { to, .. } => Goal { velocity: to, distance: None },
+        };
+        let from = match request {
+            Request::Move { .. } => 0.0,
+            Request::Ramp { from, .. } => from,
+        };
+        let unit = |order: i32| task.length / task.time.powi(order);
+        let [velocity, acceleration, jerk] = [limits.velocity(), limits.acceleration(), limits.jerk()];
+        // The limit itself, not what is left of it after scaling there and back.
+        let known = |value: f64, bounds: profiles::Interval| {
+            let near = |bound: &f64| (value - bound).abs() <= ROUNDING * bound.abs();
+            [bounds.lower, bounds.upper].into_iter().find(near).unwrap_or(value)
+        };
+        let arcs: Vec<Arc> = found
+            .motion
+            .arcs()
+            .iter()
+            .map(|arc| Arc { jerk: known(arc.jerk * unit(3), jerk), duration: arc.duration * task.time })
+            .collect();
+        let contacts: Vec<Contact> = found
+            .structure
+            .contacts
+            .iter()
+            .map(|contact| match *contact {
+                Contact::Acceleration { arc, value } => {
+                    Contact::Acceleration { arc, value: known(value * unit(2), acceleration) }
+                }
+                Contact::Velocity { arc, value } => {
+                    Contact::Velocity { arc, value: known(value * unit(1), velocity) }
+                }
+                Contact::Turn { arc, value } => {
+                    Contact::Turn { arc, value: known(value * unit(1), velocity) }
+                }
+            })
+            .collect();
+        let zeros: Vec<Zero> = match robustness {
+            Robustness::None => modes.iter().map(|mode| Zero::new(*mode, false)).collect(),
+            Robustness::DoubleZero => modes.iter().map(|mode| Zero::new(*mode, true)).collect(),
+            Robustness::Band { .. } => vec![],
+        };
+        let lost = VibrationFreeError::NotConverged { violation: f64::NAN };
+        let close = Switched::new(from, &arcs).ok_or(lost)?;
+        let motion = if arcs.is_empty() || task.is_trivial() {
+            close
+        } else {
+            close.corrected(&goal, &zeros, &contacts).ok_or(lost)?
+        };
+        let profile = motion.profile(&goal, &contacts);
+        let planned = Self {
+            profile,
+            motion,
+            contacts,
+            goal,
+            task,
+            found,
+            request,
+            limits: *limits,
+            modes: modes.to_vec(),
+            robustness,
+            s_curve,
+        };
+        planned.verified()
+    }
+
+    /// The motion, if it is all that was asked.
+    fn verified(self) -> Result<Self, VibrationFreeError> {
+        let mut violation = 0.0_f64;
+        let mut take =
+            |value: f64| violation = if value.is_nan() { f64::INFINITY } else { violation.max(value) };
+        if !matches!(self.robustness, Robustness::Band { .. }) {
+            for mode in &self.modes {
+                take(residual_vibration(&self.profile, *mode) / self.size(mode) - EXACT);
+            }
+        } else if !band::is_certified(&self.task, &self.found.motion) {
+            take(band::worst(&self.task, self.found.motion.arcs()));
+        }
+        let Extrema { velocity, acceleration, .. } = self.profile.extrema();
+        for (range, bounds) in
+            [(velocity, self.limits.velocity()), (acceleration, self.limits.acceleration())]
+        {
+            take(range.upper / bounds.upper - 1.0 - ROUNDING);
+            take(range.lower / bounds.lower - 1.0 - ROUNDING);
+        }
+        if violation > 0.0 { Err(VibrationFreeError::NotConverged { violation }) } else { Ok(self) }
+    }
+
+    /// What a residual is set against: the distance, or the change of velocity over the frequency.
+    fn size(&self, mode: &Mode) -> f64 {
+        match self.request {
+            Request::Move { distance } => distance.abs().max(f64::MIN_POSITIVE),
+            Request::Ramp { from, to } => {
+                ((to - from).abs() / mode.angular_frequency()).max(f64::MIN_POSITIVE)
+            }
+        }
+    }
+
+    /// The sections of the motion.
+    #[must_use]
+    pub fn as_piecewise(&self) -> &Piecewise<MOST_ARCS> {
+        &self.profile
+    }
+
+    /// The stretches of constant jerk.
+    #[must_use]
+    pub fn arcs(&self) -> &[Arc] {
+        self.motion.arcs()
+    }
+
+    /// Where the motion meets limits.
+    #[must_use]
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    /// Where it ends.
+    #[must_use]
+    pub fn goal(&self) -> Goal {
+        self.goal
+    }
+
+    /// Instants at which the jerk jumps, the start and the end among them; the S-curve with every limit met has eight.
+    #[must_use]
+    pub fn switches(&self) -> usize {
+        self.motion.switches()
+    }
+
+    /// What the motion takes longer than the S-curve within the same limits, s.
+    #[must_use]
+    pub fn price(&self) -> f64 {
+        self.profile.duration() - self.s_curve
+    }
+
+    /// Whether the switching function proves that there is no shorter motion; where it does not, this is the shortest that
+    /// was found.
+    #[must_use]
+    pub fn is_proven(&self) -> bool {
+        self.found.multipliers.is_some()
+    }
+}
+
+/// The S-curve, where it is free of vibration by itself.
+fn free_already(task: &Task, s_curve: &SCurve) -> Option<Found> {
+    let unit = |order: i32| task.length / task.time.powi(order);
+    let sections = (0..).map_while(|k| s_curve.section(k)).filter(|section| section.length() > 0.0);
+    let arcs = sections.map(|section| {
+        let jerk = section.polynomial.jerk / unit(3);
+        Arc { jerk: if jerk == 0.0 { 0.0 } else { task.full(jerk) }, duration: section.length() / task.time }
+    });
+    let structure = Structure::of(task, &arcs.collect::<Vec<_>>(), S_CURVE)?;
+    let motion = Motion::new(task.from, &structure.arcs)?;
+    let mut left = 0.0_f64;
+    for zero in &task.zeros {
+        let response =
+            motion.arcs().iter().fold(Default::default(), |response, arc| zero.after(response, arc));
+        let amplitude = zero.pole().norm() * zero.pole().im;
+        left = response.iter().map(|part| part.norm() / amplitude).fold(left, f64::max);
+    }
+    let free = left <= 0.1 * EXACT && band::worst(task, motion.arcs()) <= 1.0;
+    free.then(|| Found { structure, motion, multipliers: Some(vec![]) })
+}
+
+impl Profile for VibrationFreeMove {
+    fn duration(&self) -> f64 {
+        self.profile.duration()
+    }
+    fn sample(&self, t: f64) -> Sample {
+        self.profile.sample(t)
+    }
+    fn extrema(&self) -> Extrema {
+        self.profile.extrema()
+    }
+    fn response(&self, p: Complex<f64>) -> Complex<f64> {
+        self.profile.response(p)
+    }
+}
+
+impl Sectioned for VibrationFreeMove {
+    const HARMONIC: bool = false;
+
+    fn section(&self, index: usize) -> Option<Section> {
+        self.profile.section(index)
+    }
+    fn section_at(&self, t: f64) -> Option<Section> {
+        self.profile.section_at(t)
+    }
+    fn before(&self) -> Sample {
+        self.profile.before()
+    }
+    fn after(&self) -> Sample {
+        self.profile.after()
+    }
+}

@@ -1,0 +1,64 @@
+//! From a grid to the optimum.
+
+use super::error::VibrationFreeError;
+use super::exchange::{Found, exchanged, shorter};
+use super::grid::OnGrid;
+use super::reading;
+use super::task::Task;
+
+/// Cells of the first grid for each rad of the fastest mode, and the fewest and the most there are.
+const DENSITY: f64 = 1.5;
+const FEWEST: f64 = 64.0;
+const MOST: f64 = 240.0;
+/// Cells into which one near a switch is cut.
+const PARTS: usize = 3;
+/// A distance close enough to that asked for to cut cells again.
+const NEAR: f64 = 3e-3;
+/// Grids before the best motion is taken that there is.
+const ROUNDS: usize = 6;
+
+/// The shortest motion: the duration in which the furthest motion on a grid gets to the goal by the secant rule, and from
+/// every grid but the first, where the jerk switches, the optimum by exchange.
+pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
+    let poles = task.zeros.iter().map(|zero| zero.pole()).chain(task.places.iter().map(|place| place.pole));
+    let fastest = poles.map(|pole| pole.norm()).fold(0.0, f64::max);
+    let count = (DENSITY * fastest).clamp(FEWEST, MOST) as usize;
+    let mut cells = vec![1.0; count];
+    let (mut early, mut late) = (1.0, task.longest);
+    let mut duration = 1.0 + 0.2 * (task.longest - 1.0);
+    let mut last: Option<(f64, f64)> = None;
+    let mut best: Option<Found> = None;
+    let mut missed = f64::INFINITY;
+    for round in 0..ROUNDS {
+        let unit = duration / cells.iter().sum::<f64>();
+        let Some(found) = OnGrid::furthest(task, cells.iter().map(|cell| cell * unit).collect()) else {
+            break;
+        };
+        let beyond = found.reached - 1.0;
+        missed = beyond.abs();
+        if round > 0 {
+            let structure = reading::structure(task, &found);
+            match structure.and_then(|structure| exchanged(task, structure, None)) {
+                Some(found) if found.multipliers.is_some() => return Ok(found),
+                Some(found) => best = Some(shorter(best, found)),
+                None => {}
+            }
+        }
+        if round == 0 || missed < NEAR {
+            cells = reading::refined(task, &found, PARTS);
+        }
+        if beyond < 0.0 {
+            early = duration;
+        } else {
+            late = duration;
+        }
+        // Distances grow with time about as fast as the fastest velocity.
+        let slope = last.map_or(2.0 / duration, |(before, value)| (beyond - value) / (duration - before));
+        last = Some((duration, beyond));
+        duration -= beyond / slope;
+        if !(duration > early && duration < late) {
+            duration = 0.5 * (early + late);
+        }
+    }
+    best.ok_or(VibrationFreeError::NotConverged { violation: missed })
+}
