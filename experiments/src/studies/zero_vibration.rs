@@ -12,8 +12,8 @@ use anyhow::{Context as _, Result};
 use rayon::prelude::*;
 
 use self::judge::{Judged, Plant, judge, judge_all, saved, winner};
-use self::methods::{METHODS, index};
-use self::setup::{BAND, Task, computed, grid};
+use self::methods::{METHODS, index, is_optimum, two_modes};
+use self::setup::{Task, computed, grid};
 use crate::experiment::{Context, Experiment, Outcome, Source};
 
 /// The experiment.
@@ -37,7 +37,7 @@ pub const EXPERIMENT: Experiment = Experiment {
 };
 
 /// Moves whose duration was computed before.
-const COMPUTED: [&str; 3] = ["s-curve", "zv", "zvd"];
+const COMPUTED: [&str; 5] = ["s-curve", "zv", "zvd", "optimum", "optimum-double"];
 
 fn run(context: &Context) -> Result<Outcome> {
     let mut outcome = Outcome::default();
@@ -64,11 +64,28 @@ fn over_the_grid(all: &[Vec<Judged>], outcome: &mut Outcome) -> Result<()> {
         outcome.measure(format!("left/nominal/{}", method.id), 100.0 * worst(|j| j.left.0));
         outcome.measure(format!("left/off/{}", method.id), 100.0 * worst(|j| j.left.1));
     }
-    for (plant, by, over) in [(Plant::Nominal, "chain", "zv"), (Plant::Off, "chain-double", "zvd")] {
+    for plant in [Plant::Nominal, Plant::Off] {
+        let won = all.iter().filter(|judged| is_optimum(&METHODS[winner(judged, plant)])).count();
+        outcome.measure(format!("wins/{}/any-optimum", plant.id()), won);
+    }
+    let pairs = [
+        (Plant::Nominal, "optimum", "zv"),
+        (Plant::Nominal, "optimum", "chain"),
+        (Plant::Off, "optimum-double", "zvd"),
+        (Plant::Off, "optimum-band", "zvd"),
+        (Plant::Off, "optimum-band", "ei"),
+    ];
+    for (plant, by, over) in pairs {
         let (mean, median) = saved(all, plant, index(by)?, index(over)?);
         let name = format!("saved/{}/{by}-over-{over}", plant.id());
         outcome.measure(format!("{name}/mean"), 1e3 * mean);
         outcome.measure(format!("{name}/median"), 1e3 * median);
+    }
+    let optima = METHODS.iter().enumerate().filter(|(_, method)| is_optimum(method));
+    for (n, method) in optima {
+        let of = |found: Option<bool>| all.iter().filter(|judged| judged[n].proven == found).count();
+        outcome.measure(format!("planned/proven/{}", method.id), of(Some(true)));
+        outcome.measure(format!("planned/missing/{}", method.id), of(None));
     }
     let apart = all.iter().flatten().map(|judged| judged.disagreement).fold(0.0, f64::max);
     outcome.measure("simulation/disagreement", apart);
@@ -86,11 +103,18 @@ fn single_moves(context: &Context, outcome: &mut Outcome) -> Result<()> {
             outcome.measure(format!("{name}/nominal/{}", method.id), 1e3 * judged.nominal);
             outcome.measure(format!("{name}/off/{}", method.id), 1e3 * judged.off);
         }
+        let (optimum, shaped) = two_modes(&task)?;
+        outcome.measure(format!("computed/{name}/optimum-two-modes"), optimum);
+        outcome.measure(format!("computed/{name}/zv-two-modes"), shaped);
     }
     let [(_, task), ..] = computed()?;
     outcome.figure(pictures::sensitivity(&task, seed, if context.quick { 40 } else { 400 })?);
-    outcome.figure(pictures::jerk(&task, seed, &["s-curve", "chain", "chain-double"])?);
-    outcome.figure(pictures::courses(&task, seed, &["s-curve", "five-phase", "zv", "chain"])?);
+    outcome.figure(pictures::jerk(&task, seed, &["s-curve", "optimum", "optimum-double", "optimum-band"])?);
+    outcome.figure(pictures::courses(
+        &task,
+        seed,
+        &["s-curve", "five-phase", "zv", "zvd", "chain", "optimum"],
+    )?);
     Ok(())
 }
 
@@ -100,8 +124,11 @@ fn prices(context: &Context, outcome: &mut Outcome) -> Result<()> {
     let tasks: Vec<Task> =
         (4..=40_u32).step_by(every).map(|hz| Task::new(0.1, f64::from(hz), 0.02)).collect::<Result<_>>()?;
     let durations = |task: &Task| -> Result<Vec<f64>> {
-        let of = |m: &methods::Method| Ok(m.plan(task, context.seed)?.duration(BAND));
-        METHODS.iter().map(of).collect::<Result<_>>().with_context(|| format!("{task:?}"))
+        METHODS
+            .iter()
+            .map(|method| judge::duration(method, task, context.seed))
+            .collect::<Result<_>>()
+            .with_context(|| format!("{task:?}"))
     };
     let durations: Vec<Vec<f64>> = tasks.par_iter().map(durations).collect::<Result<_>>()?;
     outcome.figure(pictures::price(&tasks, &durations)?);

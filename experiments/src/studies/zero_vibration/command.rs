@@ -14,17 +14,23 @@ pub(super) struct Command {
     profile: Box<dyn Profile + Send + Sync>,
     pub(super) sections: Vec<Section>,
     pub(super) low_pass: Option<f64>,
+    /// Whether it is proven to be the shortest of its kind.
+    pub(super) proven: bool,
 }
 
 impl Command {
     pub(super) fn new<P: Sectioned + Send + Sync + 'static>(profile: P) -> Self {
         let sections =
             std::iter::successors(profile.section_at(0.0), |last| profile.section_at(last.end)).collect();
-        Self { profile: Box::new(profile), sections, low_pass: None }
+        Self { profile: Box::new(profile), sections, low_pass: None, proven: false }
     }
 
     pub(super) fn with_low_pass(self, corner: f64) -> Self {
         Self { low_pass: Some(corner), ..self }
+    }
+
+    pub(super) fn with_proof(self, proven: bool) -> Self {
+        Self { proven, ..self }
     }
 
     /// When the profile ends, s.

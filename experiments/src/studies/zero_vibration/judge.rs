@@ -3,8 +3,8 @@
 use anyhow::{Context as _, Result};
 use rayon::prelude::*;
 
-use super::command::part_left;
-use super::methods::METHODS;
+use super::command::{Command, part_left};
+use super::methods::{METHODS, Method, is_optimum};
 use super::setup::{BAND, OFF, Task};
 use super::simulation::{Watch, course};
 
@@ -27,6 +27,36 @@ pub(super) struct Judged {
     pub(super) left: (f64, f64),
     /// What simulation and closed form differ by at most, of the move.
     pub(super) disagreement: f64,
+    /// Whether it is proven to be the shortest of its kind; none where the search for it did not converge.
+    pub(super) proven: Option<bool>,
+}
+
+impl Judged {
+    /// A move that there is not.
+    fn missing() -> Self {
+        let never = f64::INFINITY;
+        Self {
+            duration: never,
+            nominal: never,
+            off: never,
+            left: (0.0, 0.0),
+            disagreement: 0.0,
+            proven: None,
+        }
+    }
+}
+
+/// The command of a method; a search may fail and is counted, a formula may not.
+fn planned(method: &Method, task: &Task, seed: u64) -> Result<Option<Command>> {
+    match method.plan(task, seed) {
+        Err(_) if is_optimum(method) => Ok(None),
+        command => command.map(Some),
+    }
+}
+
+/// When the command of a method is at rest, s; infinite where there is none.
+pub(super) fn duration(method: &Method, task: &Task, seed: u64) -> Result<f64> {
+    Ok(planned(method, task, seed)?.map_or(f64::INFINITY, |command| command.duration(BAND)))
 }
 
 /// All methods on one task, in their order.
@@ -34,13 +64,14 @@ pub(super) fn judge(task: &Task, seed: u64) -> Result<Vec<Judged>> {
     METHODS
         .iter()
         .map(|method| {
-            let command = method.plan(task, seed)?;
+            let Some(command) = planned(method, task, seed)? else { return Ok(Judged::missing()) };
             let mut judged = Judged {
                 duration: command.duration(BAND),
                 nominal: 0.0,
                 off: 0.0,
                 left: (0.0, 0.0),
                 disagreement: 0.0,
+                proven: Some(command.proven),
             };
             for part in [1.0 - OFF, 1.0, 1.0 + OFF] {
                 let mode = task.mode_at(part)?;
@@ -101,9 +132,10 @@ pub(super) fn winner(judged: &[Judged], plant: Plant) -> usize {
     judged.iter().position(|j| plant.time(j) <= least + EQUAL).unwrap_or(0)
 }
 
-/// Mean and median of how much sooner one method is at rest than another, s.
+/// Mean and median of how much sooner one method is at rest than another, where there are both, s.
 pub(super) fn saved(all: &[Vec<Judged>], plant: Plant, by: usize, over: usize) -> (f64, f64) {
-    let mut saved: Vec<f64> = all.iter().map(|j| plant.time(&j[over]) - plant.time(&j[by])).collect();
+    let mut saved: Vec<f64> =
+        all.iter().map(|j| plant.time(&j[over]) - plant.time(&j[by])).filter(|s| s.is_finite()).collect();
     saved.sort_by(f64::total_cmp);
     let mean = saved.iter().sum::<f64>() / saved.len() as f64;
     let middle = saved.len() / 2;
@@ -116,7 +148,7 @@ mod tests {
     use super::*;
 
     fn judged(nominal: f64, off: f64) -> Judged {
-        Judged { duration: 0.1, nominal, off, left: (0.0, 0.0), disagreement: 0.0 }
+        Judged { duration: 0.1, nominal, off, left: (0.0, 0.0), disagreement: 0.0, proven: Some(false) }
     }
 
     #[test]

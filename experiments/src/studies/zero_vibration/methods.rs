@@ -1,11 +1,12 @@
 //! Every way of making a move that is compared.
 
 use anyhow::Result;
-use profiles::{Chain, Mode, SCurve, SnapLimited};
+use optimize::vibration_free::{Robustness, plan};
+use profiles::{Chain, Mode, Profile, SCurve, SnapLimited};
 use shaping::{DelayFilter, ImpulseTrain, Shaped, Shaper};
 
 use super::command::Command;
-use super::setup::{Task, limits, limits_of_snap};
+use super::setup::{BAND, OFF, Task, limits, limits_of_snap};
 use super::tuning;
 use crate::figure::{Role, Shape};
 
@@ -104,7 +105,19 @@ pub(super) const METHODS: &[Method] = &[
     method("chain-double", "chain, double zero", (Family::Planned, Role::Fifth), |task, _| {
         chain(task, &[task.mode; 2])
     }),
+    method("optimum", "optimum", (Family::Planned, Role::Ours), |task, _| optimum(task, Robustness::None)),
+    method("optimum-double", "optimum, double zero", (Family::Planned, Role::Third), |task, _| {
+        optimum(task, Robustness::DoubleZero)
+    }),
+    method("optimum-band", "optimum, band", (Family::Planned, Role::Second), |task, _| {
+        optimum(task, Robustness::Band { half_width: OFF, residual: BAND })
+    }),
 ];
+
+/// Whether a method is the time optimum, with any robustness.
+pub(super) fn is_optimum(method: &Method) -> bool {
+    method.id.starts_with("optimum")
+}
 
 /// The method with this id.
 pub(super) fn index(id: &str) -> Result<usize> {
@@ -118,6 +131,22 @@ fn s_curve(task: &Task) -> Result<SCurve> {
 fn shaped(task: &Task, shaper: Shaper) -> Result<Command> {
     let train: ImpulseTrain<3> = shaper.train(task.mode)?;
     Ok(Command::new(Shaped::new(s_curve(task)?, train)))
+}
+
+fn optimum(task: &Task, robustness: Robustness) -> Result<Command> {
+    let planned = plan(task.length, &limits()?, &[task.mode], robustness)?;
+    let proven = planned.is_proven();
+    Ok(Command::new(planned).with_proof(proven))
+}
+
+/// Durations of the time optimum without vibration of the mode and of one of 2.3 times its frequency, and of the S-curve through
+/// a ZV shaper for each, s.
+pub(super) fn two_modes(task: &Task) -> Result<(f64, f64)> {
+    let other = task.mode_at(2.3)?;
+    let optimum = plan(task.length, &limits()?, &[task.mode, other], Robustness::None)?;
+    let [first, second]: [ImpulseTrain<2>; 2] = [Shaper::ZV.train(task.mode)?, Shaper::ZV.train(other)?];
+    let shaped = Shaped::new(Shaped::new(s_curve(task)?, first), second);
+    Ok((optimum.duration(), shaped.duration()))
 }
 
 fn chain(task: &Task, modes: &[Mode]) -> Result<Command> {

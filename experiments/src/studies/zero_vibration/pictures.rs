@@ -83,7 +83,8 @@ pub(super) fn price(tasks: &[Task], durations: &[Vec<f64>]) -> Result<Figure> {
             let line = tasks.iter().zip(durations).map(|(task, durations)| {
                 (task.mode.hz(), (1e3 * (durations[n] - durations[plain])).max(LEAST_PRICE))
             });
-            panel = panel.line(method.name, method.role, line.collect());
+            let line = line.filter(|(_, price)| price.is_finite()).collect();
+            panel = panel.line(method.name, method.role, line);
         }
         figure = figure.panel(panel);
     }
