@@ -9,14 +9,19 @@ use super::task::{Band, Place, Task};
 
 /// Samples of a band, per rad that its poles turn in the course of the motion.
 const DENSITY: f64 = 2.0;
-/// What may be left beyond what is tolerated, as a part of it, until the certificate.
-const BEYOND: f64 = 1e-9;
+/// What may be left beyond what is aimed for, as a part of it: less than the aim is below what is tolerated.
+const BEYOND: f64 = 5e-5;
 /// Intervals before a certificate is given up.
 const HALVINGS: usize = 100_000;
 /// Places closer than this, as a part of the frequency, are one.
 const CLOSE: f64 = 1e-6;
 
-/// The most that is left, as a part of what is tolerated; zero without bands.
+/// Whether no more is left of any band than is tolerated.
+pub(super) fn is_kept(task: &Task, arcs: &[Arc]) -> bool {
+    worst(task, arcs) <= 1.0 + BEYOND
+}
+
+/// The most that is left, as a part of what is aimed for; zero without bands.
 pub(super) fn worst(task: &Task, arcs: &[Arc]) -> f64 {
     peaks(task, arcs).iter().map(|place| place.part(arcs)).fold(0.0, f64::max)
 }

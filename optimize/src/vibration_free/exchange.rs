@@ -9,14 +9,15 @@ use super::improve::improved;
 use super::newton::{Optimum, stationary};
 use super::settle::settled;
 use super::structure::{Blur, Stay, Structure};
-use super::task::Task;
+use super::task::{Place, Task};
 
 /// Changes of the structure before it is given up.
 const EXCHANGES: usize = 40;
-/// Times that linear programmes may come to the aid of Newton's method.
-const RESCUES: usize = 2;
-/// Steps of these.
+/// Steps of the programmes that come to the aid of Newton's method.
 const RESCUE_STEPS: usize = 25;
+/// Times that places of a band are added to them, and the part of what is tolerated that is all of it.
+const FILLINGS: usize = 3;
+const FULL: f64 = 0.98;
 /// What a linear programme leaves of durations and limits.
 const SETTLED: Blur = Blur { shortest: 1e-4, acceleration: 1e-2, velocity: 2e-3, turn: 1e-5 };
 /// An arc that is none, as a part of the S-curve's duration.
@@ -33,13 +34,18 @@ pub(super) struct Found {
     pub(super) multipliers: Option<Vec<f64>>,
 }
 
-/// The optimum near a structure; if it is not reached, the shortest motion on the way there that meets all that is asked.
-pub(super) fn exchanged(task: &Task, start: Structure, known: Option<&[f64]>) -> Option<Found> {
+/// The optimum near a structure; if it is not reached, the shortest motion on the way there that meets all that is asked. A
+/// sequence of programmes may come to the aid of Newton's method so many times.
+pub(super) fn exchanged(
+    task: &Task,
+    start: Structure,
+    known: Option<&[f64]>,
+    rescues: usize,
+) -> Option<Found> {
     let mut structure = start;
     let mut known = known;
     let mut best: Option<Found> = None;
-    // What is left of a band depends too much on every duration.
-    let mut rescues = if task.bands.is_empty() { RESCUES } else { 0 };
+    let mut rescues = rescues;
     let mut added = None;
     for _ in 0..EXCHANGES {
         let Some(optimum) = stationary(task, &structure, known.take()) else {
@@ -94,17 +100,29 @@ pub(super) fn shorter(best: Option<Found>, found: Found) -> Found {
     if better { found } else { best }
 }
 
-/// The structure to which linear programmes lead.
+/// The structure to which a sequence of programmes leads.
 fn rescued(task: &Task, structure: &Structure) -> Option<Structure> {
-    let motion = settled(task, &structure.arcs, RESCUE_STEPS)?;
-    Structure::of(task, motion.arcs(), SETTLED)
+    let mut arcs = structure.arcs.clone();
+    let mut places = structure.places.clone();
+    for _ in 0..if task.bands.is_empty() { 1 } else { FILLINGS } {
+        arcs = settled(task, &arcs, &places, RESCUE_STEPS)?.arcs().to_vec();
+        let beyond = band::peaks(task, &arcs).into_iter().filter(|place| place.part(&arcs) > 1.0);
+        let beyond: Vec<_> = beyond.collect();
+        if beyond.is_empty() {
+            break;
+        }
+        places.extend(beyond);
+    }
+    let full = |place: &Place| place.part(&arcs) > FULL;
+    let places = band::peaks(task, &arcs).into_iter().filter(full).collect();
+    Some(Structure { places, ..Structure::of(task, &arcs, SETTLED)? })
 }
 
 /// The motion nearest to a structure that meets all that is asked.
 fn exact(task: &Task, structure: &Structure) -> Option<Found> {
     let close = Motion::new(task.from, &structure.arcs)?;
     let motion = close.corrected(&task.goal, &task.zeros, &structure.contacts)?;
-    let good = passed(task, &motion).is_none() && band::worst(task, motion.arcs()) <= 1.0;
+    let good = passed(task, &motion).is_none() && band::is_kept(task, motion.arcs());
     good.then(|| Found { structure: structure.clone(), motion, multipliers: None })
 }
 

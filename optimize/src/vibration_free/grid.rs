@@ -1,5 +1,6 @@
 //! The structure of the optimum, by a linear programme on a grid of time.
 
+use profiles::switched::Arc;
 use profiles::{Complex, Interval};
 
 use super::task::{Place, Task};
@@ -17,6 +18,11 @@ pub(super) struct OnGrid {
 }
 
 impl OnGrid {
+    /// The cells as arcs.
+    pub(super) fn arcs(&self) -> Vec<Arc> {
+        self.jerk.iter().zip(&self.cells).map(|(jerk, cell)| Arc { jerk: *jerk, duration: *cell }).collect()
+    }
+
     /// The furthest motion in the sum of `cells`, its jerk constant in each of them.
     ///
     /// Unknown are jerk, acceleration and velocity at the grid. Acceleration is linear in a cell, so that its limit holds;

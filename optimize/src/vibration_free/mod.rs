@@ -1,5 +1,6 @@
 //! The shortest motion that leaves nothing of given modes.
 
+mod asked;
 mod band;
 mod conditions;
 mod costate;

@@ -75,7 +75,7 @@ impl VibrationFreeMove {
         let mut structure = self.found.structure.clone();
         structure.arcs = self.found.motion.arcs().to_vec();
         structure.places.iter_mut().for_each(|place| place.tolerated *= ratio);
-        match exchanged(&task, structure, self.found.multipliers.as_deref()) {
+        match exchanged(&task, structure, self.found.multipliers.as_deref(), 0) {
             Some(found) if found.multipliers.is_some() => {
                 let (limits, modes) = (&self.limits, &self.modes);
                 Self::in_units(task, found, request, limits, modes, self.robustness, s_curve.duration())
@@ -253,7 +253,7 @@ fn free_already(task: &Task, s_curve: &SCurve) -> Option<Found> {
         let amplitude = zero.pole().norm() * zero.pole().im;
         left = response.iter().map(|part| part.norm() / amplitude).fold(left, f64::max);
     }
-    let free = left <= 0.1 * EXACT && band::worst(task, motion.arcs()) <= 1.0;
+    let free = left <= 0.1 * EXACT && band::is_kept(task, motion.arcs());
     free.then(|| Found { structure, motion, multipliers: Some(vec![]) })
 }
 

@@ -28,8 +28,7 @@ pub(super) fn structure(task: &Task, found: &OnGrid) -> Option<Structure> {
 /// With the places at which bands are full on the grid, and with durations that leave there what the grid does: what is left
 /// depends so much on them that reading them off does not tell.
 fn with_bands(task: &Task, found: &OnGrid, structure: Structure) -> Structure {
-    let cells = found.jerk.iter().zip(&found.cells).map(|(jerk, cell)| Arc { jerk: *jerk, duration: *cell });
-    let cells: Vec<Arc> = cells.collect();
+    let cells = found.arcs();
     let full = |place: &Place| place.part(&cells) >= FULL;
     let places: Vec<Place> = peaks(task, &cells).into_iter().filter(full).collect();
     let left: Vec<Zero> =

@@ -1,5 +1,6 @@
 //! From a grid to the optimum.
 
+use super::band;
 use super::error::VibrationFreeError;
 use super::exchange::{Found, exchanged, shorter};
 use super::grid::OnGrid;
@@ -14,12 +15,18 @@ const MOST: f64 = 240.0;
 const PARTS: usize = 3;
 /// A distance close enough to that asked for to cut cells again.
 const NEAR: f64 = 3e-3;
+/// And one that tells the structure.
+const TELLING: f64 = 0.1;
+/// Grids before Newton's method gets aid, which takes longer than a finer grid.
+const UNAIDED: usize = 2;
 /// Grids before the best motion is taken that there is.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 8;
 
 /// The shortest motion: the duration in which the furthest motion on a grid gets to the goal by the secant rule, and from
 /// every grid but the first, where the jerk switches, the optimum by exchange.
 pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
+    // The places of bands grow from grid to grid.
+    let mut task = task.clone();
     let poles = task.zeros.iter().map(|zero| zero.pole()).chain(task.places.iter().map(|place| place.pole));
     let fastest = poles.map(|pole| pole.norm()).fold(0.0, f64::max);
     let count = (DENSITY * fastest).clamp(FEWEST, MOST) as usize;
@@ -31,21 +38,25 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
     let mut missed = f64::INFINITY;
     for round in 0..ROUNDS {
         let unit = duration / cells.iter().sum::<f64>();
-        let Some(found) = OnGrid::furthest(task, cells.iter().map(|cell| cell * unit).collect()) else {
+        let Some(found) = OnGrid::furthest(&task, cells.iter().map(|cell| cell * unit).collect()) else {
             break;
         };
         let beyond = found.reached - 1.0;
+        let arcs = found.arcs();
+        task.add_places(band::peaks(&task, &arcs), &arcs);
         missed = beyond.abs();
-        if round > 0 {
-            let structure = reading::structure(task, &found);
-            match structure.and_then(|structure| exchanged(task, structure, None)) {
+        if round > 0 && missed < TELLING {
+            let structure = reading::structure(&task, &found);
+            match structure
+                .and_then(|structure| exchanged(&task, structure, None, usize::from(round > UNAIDED)))
+            {
                 Some(found) if found.multipliers.is_some() => return Ok(found),
                 Some(found) => best = Some(shorter(best, found)),
                 None => {}
             }
         }
         if round == 0 || missed < NEAR {
-            cells = reading::refined(task, &found, PARTS);
+            cells = reading::refined(&task, &found, PARTS);
         }
         if beyond < 0.0 {
             early = duration;

@@ -8,6 +8,8 @@ use super::{MOST_MODES, Request, Robustness};
 
 /// What is aimed for in a band, as a part of what is tolerated: the rest is what the certificate cannot tell.
 const AIM: f64 = 1.0 - 2e-4;
+/// A part of what is tolerated that a solver can tell.
+const VISIBLE: f64 = 1e-3;
 /// Places of a band at which it is kept on a grid.
 const PLACES: usize = 5;
 
@@ -169,6 +171,11 @@ impl Task {
             length: sign * length,
         };
         Ok((task, s_curve))
+    }
+
+    /// Adds places on a grid at which more is left of a band than is tolerated.
+    pub(super) fn add_places(&mut self, peaks: Vec<Place>, arcs: &[Arc]) {
+        self.places.extend(peaks.into_iter().filter(|place| place.part(arcs) > 1.0 + VISIBLE));
     }
 
     /// Whether nothing is asked of modes.
