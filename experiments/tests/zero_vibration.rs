@@ -34,10 +34,19 @@ fn what_is_simulated_is_what_the_closed_form_says() {
     let outcome = quick(2);
     // A state of a few tenths of a metre, a thousand steps of some roundings each.
     assert!(number(&outcome, "simulation/disagreement") < 1e-11);
-    // What has a zero on the mode leaves nothing of it.
-    for method in ["zv", "zvd", "delay-filter", "chain", "chain-double"] {
-        assert!(number(&outcome, &format!("left/nominal/{method}")) < 1e-10, "{method}");
+    // What has a zero on the mode leaves nothing of it, in % of the move.
+    for method in ["zv", "zvd", "delay-filter", "chain", "chain-double", "optimum", "optimum-double"] {
+        assert!(number(&outcome, &format!("left/nominal/{method}")) < 1e-9, "{method}");
     }
+    // The band's tolerance, and a rounding.
+    assert!(number(&outcome, "left/off/optimum-band") < 0.1 + 1e-6);
     // Who is shaped is at rest when the S-curve is not: 8 Hz, hardly damped.
     assert!(number(&outcome, "8hz/nominal/zv") < 0.2 * number(&outcome, "8hz/nominal/s-curve"));
+    for task in ["8hz", "20hz", "12hz"] {
+        let duration = |id: &str| number(&outcome, &format!("computed/{task}/{id}"));
+        assert!(duration("s-curve") <= duration("optimum") && duration("optimum") < duration("zv"), "{task}");
+        assert!(duration("optimum") <= duration("optimum-double"), "{task}");
+        assert!(duration("optimum-double") < duration("zvd"), "{task}");
+        assert!(duration("optimum-two-modes") < duration("zv-two-modes"), "{task}");
+    }
 }

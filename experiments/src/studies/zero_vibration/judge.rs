@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result};
 use rayon::prelude::*;
 
 use super::command::{Command, part_left};
-use super::methods::{METHODS, Method, is_optimum};
+use super::methods::{METHODS, Method};
 use super::setup::{BAND, OFF, Task};
 use super::simulation::{Watch, course};
 
@@ -49,7 +49,7 @@ impl Judged {
 /// The command of a method; a search may fail and is counted, a formula may not.
 fn planned(method: &Method, task: &Task, seed: u64) -> Result<Option<Command>> {
     match method.plan(task, seed) {
-        Err(_) if is_optimum(method) => Ok(None),
+        Err(_) if method.is_optimum() => Ok(None),
         command => command.map(Some),
     }
 }

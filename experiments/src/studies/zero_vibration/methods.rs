@@ -20,15 +20,17 @@ const TOLERATED: f64 = 0.05;
 /// Delay of the delay filter in damped periods. A quarter would be ZV and a half ZVD; the paper on it takes 0.27 to 0.44.
 const DELAY: f64 = 0.375;
 
-/// What a method is one of; each has a panel and a shape of its own.
+/// What a method is one of; each has a panel of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Family {
     /// A law that is not shaped, and the low-pass.
     Plain,
     /// The S-curve through a train of impulses.
     Shaper,
-    /// A move planned around the mode.
-    Planned,
+    /// A step through averages, some of which are as long as the mode asks for.
+    Chain,
+    /// The shortest move without vibration.
+    Optimum,
 }
 
 impl Family {
@@ -36,7 +38,7 @@ impl Family {
         match self {
             Self::Plain => Shape::Circle,
             Self::Shaper => Shape::Triangle,
-            Self::Planned => Shape::Square,
+            Self::Chain | Self::Optimum => Shape::Square,
         }
     }
 
@@ -44,12 +46,13 @@ impl Family {
         match self {
             Self::Plain => "laws and low-pass",
             Self::Shaper => "shapers",
-            Self::Planned => "planned around the mode",
+            Self::Chain => "chains of averages",
+            Self::Optimum => "time optima",
         }
     }
 }
 
-pub(super) const FAMILIES: [Family; 3] = [Family::Plain, Family::Shaper, Family::Planned];
+pub(super) const FAMILIES: [Family; 4] = [Family::Plain, Family::Shaper, Family::Chain, Family::Optimum];
 
 /// One of them.
 pub(super) struct Method {
@@ -64,6 +67,11 @@ pub(super) struct Method {
 }
 
 impl Method {
+    /// Whether it is the time optimum, with any robustness.
+    pub(super) fn is_optimum(&self) -> bool {
+        self.family == Family::Optimum
+    }
+
     pub(super) fn plan(&self, task: &Task, seed: u64) -> Result<Command> {
         (self.plan)(task, seed)
     }
@@ -101,23 +109,18 @@ pub(super) const METHODS: &[Method] = &[
         let filter = DelayFilter::positive(task.mode, DELAY * task.mode.damped_period())?;
         Ok(Command::new(Shaped::new(s_curve(task)?, *filter.train())))
     }),
-    method("chain", "chain", (Family::Planned, Role::Fourth), |task, _| chain(task, &[task.mode])),
-    method("chain-double", "chain, double zero", (Family::Planned, Role::Fifth), |task, _| {
+    method("chain", "chain", (Family::Chain, Role::Fourth), |task, _| chain(task, &[task.mode])),
+    method("chain-double", "chain, double zero", (Family::Chain, Role::Fifth), |task, _| {
         chain(task, &[task.mode; 2])
     }),
-    method("optimum", "optimum", (Family::Planned, Role::Ours), |task, _| optimum(task, Robustness::None)),
-    method("optimum-double", "optimum, double zero", (Family::Planned, Role::Third), |task, _| {
+    method("optimum", "optimum", (Family::Optimum, Role::Ours), |task, _| optimum(task, Robustness::None)),
+    method("optimum-double", "optimum, double zero", (Family::Optimum, Role::Third), |task, _| {
         optimum(task, Robustness::DoubleZero)
     }),
-    method("optimum-band", "optimum, band", (Family::Planned, Role::Second), |task, _| {
+    method("optimum-band", "optimum, band", (Family::Optimum, Role::Second), |task, _| {
         optimum(task, Robustness::Band { half_width: OFF, residual: BAND })
     }),
 ];
-
-/// Whether a method is the time optimum, with any robustness.
-pub(super) fn is_optimum(method: &Method) -> bool {
-    method.id.starts_with("optimum")
-}
 
 /// The method with this id.
 pub(super) fn index(id: &str) -> Result<usize> {

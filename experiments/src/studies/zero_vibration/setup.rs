@@ -66,7 +66,7 @@ pub(super) fn grid(quick: bool) -> Result<Vec<Task>> {
     let (lengths, frequencies) = if quick { (2, 3) } else { (LENGTHS.len(), FREQUENCIES.len()) };
     let mut tasks = Vec::new();
     for damping in DAMPINGS {
-        for length in LENGTHS.iter().rev().take(lengths) {
+        for length in LENGTHS.iter().take(lengths) {
             for hz in FREQUENCIES.iter().take(frequencies) {
                 tasks.push(Task::new(*length, *hz, damping)?);
             }
