@@ -22,7 +22,7 @@ fn options() -> [GeneticOptions; 5] {
     let near = Mutation::Nearby { reach: 0.1 };
     [
         plain,
-        GeneticOptions { swarm: ring, mates: Mates::All, crossover: Crossover::Arithmetic, ..plain },
+        GeneticOptions { swarm: ring, mates: Mates::Pool, crossover: Crossover::Arithmetic, ..plain },
         GeneticOptions { pool: 1.0, crossover: Crossover::Blend { beyond: 0.5 }, mutation: near, ..plain },
         GeneticOptions { pool: 0.0, ..plain },
         GeneticOptions::genetic(24, 60),

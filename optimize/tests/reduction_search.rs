@@ -1,14 +1,16 @@
 //! Degree reduction by any solver: costs that are what they say, all three settings, and what the searches find.
 #![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
 
+mod common;
 #[path = "common/curves.rs"]
 mod curves;
 
 use argmin::core::Executor;
+use common::median;
 use curves::{cubic, quintic, sampled, spatial};
 use optimize::reduction::{Criterion, Freed, Reduction, ReductionError, ReductionSearch, Weights, deviation};
 use optimize::{
-    Cost, GeneticOptions, GeneticSwarm, ParticleSwarm, Stream, SwarmOptions, reduce_degree, simplex,
+    Cost, GeneticOptions, GeneticSwarm, Mates, ParticleSwarm, Stream, SwarmOptions, reduce_degree, simplex,
 };
 use profiles::nurbs::{Knots, NurbsCurve};
 
@@ -163,13 +165,37 @@ fn the_published_hybrid_is_beaten_by_linear_algebra() {
     let quartic = cubic().raised(1).expect("valid");
     for (curve, degree, above) in [(quintic(), 4, 5.0), (quartic, 3, 1e6)] {
         let search = search(&curve, degree, Freed::PointsAndWeights);
-        let solver = GeneticSwarm::new(search.bounds(), GeneticOptions::new(400, 1000), 1).expect("valid");
+        let published = GeneticOptions { mates: Mates::Pool, ..GeneticOptions::new(400, 1000) };
+        let solver = GeneticSwarm::new(search.bounds(), published, 1).expect("valid");
         let found = Executor::new(search, solver).run().expect("runs").solver;
         let found = found.search().best().1.value().expect("a cost");
         let exact = reduce_degree(&curve, &Reduction::to(degree)).expect("reduces").deviation.at_most;
         println!("{found:e} beside {exact:e}");
         assert!(found < 1.5 && found > above * exact);
     }
+}
+
+#[test]
+fn the_hybrid_is_not_worse_than_swarm_or_genetic_algorithm() {
+    // As many evaluations each: 200 and 100 in 501 generations, 200 in 751, 100 in 1500.
+    let curve = spatial();
+    let search =
+        ReductionSearch::new(&curve, &start(&curve, 4), Freed::PointsAndWeights, 101).expect("valid");
+    let hybrid = GeneticOptions::new(200, 500);
+    let swarm = SwarmOptions { iterations: 750, ..hybrid.swarm };
+    let best = |options: GeneticOptions| {
+        let run = |seed| {
+            let solver = GeneticSwarm::new(search.bounds(), options, seed).expect("valid").sequential();
+            let found = Executor::new(search.clone(), solver).run().expect("runs").solver;
+            found.search().best().1.value().expect("a cost")
+        };
+        median((0..9).map(run).collect())
+    };
+    let both = best(hybrid);
+    let swarm = best(GeneticOptions { swarm, pool: 0.0, ..hybrid });
+    let genetic = best(GeneticOptions::genetic(200, 1500));
+    println!("hybrid {both}, swarm {swarm}, genetic {genetic}");
+    assert!(both <= swarm.min(genetic), "{both} {swarm} {genetic}");
 }
 
 #[test]

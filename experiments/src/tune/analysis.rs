@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use identify::{Log, LogFigures, LogModes, LogOptions, ResponseClass, Route, identify_log};
 use optimize::{
     MoveKind, MoveRecommendation, MoveTask, ShaperRecommendation, UncertainMode, recommend_move,
@@ -104,7 +104,8 @@ pub fn tune(sampled: Sampled, question: &Question) -> Result<Tuning> {
                 .with_participation(participation)
         })
         .collect::<Result<Vec<_>, _>>()?;
-    let shaper = recommend_shaper(&uncertain, question.tolerated_part, question.deviations)?;
+    let told = |error: optimize::RecommendError| anyhow!(in_hertz(&error.to_string()));
+    let shaper = recommend_shaper(&uncertain, question.tolerated_part, question.deviations).map_err(told)?;
     let plan = question
         .wanted
         .map(|wanted| -> Result<Plan> {
@@ -119,7 +120,7 @@ pub fn tune(sampled: Sampled, question: &Question) -> Result<Tuning> {
             };
             let Wanted { distance, limits, .. } = wanted;
             let task = MoveTask { distance, limits, tolerated, deviations: question.deviations };
-            Ok(Plan { task, moves: recommend_move(&uncertain, &task)? })
+            Ok(Plan { task, moves: recommend_move(&uncertain, &task).map_err(told)? })
         })
         .transpose()?;
     let Question { tolerated_part, deviations, .. } = *question;
@@ -167,14 +168,17 @@ fn in_hertz(text: &str) -> String {
     let mut told = Vec::with_capacity(words.len());
     for (n, word) in words.iter().enumerate() {
         let unit = word.trim_end_matches([':', ',']);
+        let end = word.get(unit.len()..).unwrap_or_default();
         let number = n.checked_sub(1).and_then(|before| words.get(before)?.parse::<f64>().ok());
         match number {
             Some(w) if unit == "rad/s" => {
-                let end = word.get(unit.len()..).unwrap_or_default();
                 told.push(format!("rad/s ({} Hz){end}", crate::number::short(w / TAU)));
             }
-            _ => match word.parse::<f64>() {
-                Ok(x) if word.contains('.') => told.push(crate::number::short(x)),
+            // A whole number is a count, unless it is longer than any.
+            _ => match unit.parse::<f64>() {
+                Ok(x) if unit.contains('.') || unit.len() > 12 => {
+                    told.push(format!("{}{end}", crate::number::short(x)));
+                }
                 _ => told.push((*word).to_owned()),
             },
         }
@@ -188,6 +192,9 @@ mod tests {
 
     #[test]
     fn reasons_are_told_in_hertz_too_and_in_four_digits() {
+        let long = format!("at most 1e150, got {}", 5.25e200);
+        assert_eq!(in_hertz(&long), "at most 1e150, got 5.25e200");
+        assert_eq!(in_hertz("damping ratio -0.0399657285, 17 views"), "damping ratio -0.03997, 17 views");
         assert_eq!(
             in_hertz("a mode at 12.566370614359172 rad/s swings by 0.123456 only, 3 views: at 5.1 rad/s, no"),
             "a mode at 12.57 rad/s (2 Hz) swings by 0.1235 only, 3 views: at 5.1 rad/s (0.8117 Hz), no"

@@ -92,20 +92,31 @@ impl Layout {
             find("response", &wanted.response)?,
         ];
         let name = |at: usize| names.get(at).cloned().unwrap_or_default();
-        let time_unit = unit(&name(at[0])).and_then(|unit| seconds(&unit));
+        let time_unit = unit(&name(at[0])).and_then(seconds);
         Ok(Self { separator, width: names.len(), at, names: at.map(name), time_unit })
     }
 }
 
 /// A name without the unit behind it: `time [s]` and `time (s)` are `time`.
-fn bare(name: &str) -> &str {
+pub(super) fn bare(name: &str) -> &str {
     name.split(['[', '(']).next().unwrap_or(name).trim()
 }
 
 /// The unit behind a name.
-fn unit(name: &str) -> Option<String> {
+pub(super) fn unit(name: &str) -> Option<&str> {
     let (_, behind) = name.split_once(['[', '('])?;
-    Some(behind.trim_end_matches([']', ')']).trim().to_owned())
+    Some(behind.trim_end_matches([']', ')']).trim())
+}
+
+/// The unit of the `order`th rate of a quantity with this unit: `m/s^2`; nothing of one without.
+pub(super) fn rate(unit: &str, order: u32) -> String {
+    let unit = if unit.contains('/') { format!("({unit})") } else { unit.to_owned() };
+    match order {
+        _ if unit.is_empty() => unit,
+        0 => unit,
+        1 => format!("{unit}/s"),
+        _ => format!("{unit}/s^{order}"),
+    }
 }
 
 /// Seconds to a unit of time.
@@ -147,6 +158,13 @@ mod tests {
         assert_eq!(number("0,25", b','), None);
         assert_eq!(number("1,000.5", b';'), None);
         assert_eq!(number("-1.5e-3", b','), Some(-1.5e-3));
+    }
+
+    #[test]
+    fn units_stand_behind_names() {
+        assert_eq!(["angle (deg)", "x [ m ]", "u"].map(unit), [Some("deg"), Some("m"), None]);
+        assert_eq!([0, 1, 2].map(|order| rate("m", order)), ["m", "m/s", "m/s^2"]);
+        assert_eq!((rate("", 2).as_str(), rate("mm/s", 1).as_str()), ("", "(mm/s)/s"));
     }
 
     #[test]

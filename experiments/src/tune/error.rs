@@ -18,7 +18,7 @@ pub enum LogFileError {
         source: io::Error,
     },
     /// A text in two bytes to a letter.
-    #[error("the log is written in UTF-16; save it as UTF-8 or plain text")]
+    #[error("the log is no text, or text in UTF-16: save it as UTF-8")]
     Utf16,
     /// Nothing but comments and empty lines.
     #[error("the log has no lines of data")]

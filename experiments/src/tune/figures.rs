@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use identify::{SpectrumOptions, Window, amplitude_spectrum};
+use identify::{Route, SpectrumOptions, Window, amplitude_spectrum};
 use optimize::{JudgedMove, MoveKind, UncertainMode};
 use profiles::{Complex, Profile};
 
 use super::analysis::{Plan, Tuning};
+use super::columns::{bare, rate, unit};
+use super::words::frequency;
 use crate::figure::{Figure, Panel, Quantity, Role};
 
 /// Most points of a line: more are thinned to the least and the largest of a bin.
@@ -18,17 +20,14 @@ pub(super) fn all(tuning: &Tuning, names: &[String; 3]) -> Vec<Figure> {
     figures.extend(spectrum(tuning, names));
     figures.push(shapers(tuning));
     if let Some(plan) = &tuning.plan {
-        figures.extend([moves(tuning, plan), sensitivity(tuning, plan)]);
+        figures.extend([moves(tuning, plan, names), sensitivity(tuning, plan, names)]);
     }
     figures
 }
 
 /// The quantity of a column, `angle [rad]`.
 fn quantity(name: &str) -> Quantity {
-    match name.split_once(['[', '(']) {
-        Some((name, unit)) => Quantity::new(name.trim(), "", unit.trim_end_matches([']', ')']).trim()),
-        None => Quantity::new(name, "", ""),
-    }
+    Quantity::new(bare(name), "", unit(name).unwrap_or_default())
 }
 
 fn log(tuning: &Tuning, [_, command, response]: &[String; 3]) -> Figure {
@@ -64,67 +63,107 @@ fn fit(tuning: &Tuning, [_, _, response]: &[String; 3]) -> Figure {
         .panel(Panel::new(left).line("", Role::Reference, line(&|p| p.0 - p.1)))
 }
 
-/// Amplitudes of the response while the command rests, or of all of it.
-fn spectrum(tuning: &Tuning, [_, _, response]: &[String; 3]) -> Option<Figure> {
+/// Amplitudes of a column where the modes were fitted, by frequency in Hz.
+fn amplitudes(tuning: &Tuning, column: &[f64], window: Window) -> Option<Vec<(f64, f64)>> {
     let fitted = &tuning.found.fitted;
-    let window = tuning.sampled.response.iter().skip(fitted.first).take(fitted.values.len());
-    let values: Vec<f64> = window.copied().collect();
-    let options = SpectrumOptions { window: Window::Hann, remove_mean: true, least_length: 4 * values.len() };
+    let values: Vec<f64> = column.iter().skip(fitted.first).take(fitted.values.len()).copied().collect();
+    let options = SpectrumOptions { window, remove_mean: true, least_length: 4 * values.len() };
     let spectrum = amplitude_spectrum(&values, tuning.sampled.period, &options).ok()?;
+    Some(spectrum.bins().map(|(w, amplitude)| (w / TAU, amplitude)).collect())
+}
+
+/// Amplitudes of the response over those of the command, where the command drives all modes of a transfer function.
+fn quotient(tuning: &Tuning) -> Option<Vec<(f64, f64)>> {
+    // Of less of its largest amplitude the skirts of others are left.
+    const LEAST: f64 = 0.05;
+    if tuning.found.route != Route::TransferFunction {
+        return None;
+    }
+    // A taper would shift what a sweep holds of late frequencies against the answer to it.
+    let of = |column: &[f64]| amplitudes(tuning, column, Window::Rectangular);
+    let (driven, response) = (of(&tuning.sampled.command)?, of(&tuning.sampled.response)?);
+    let least = LEAST * driven.iter().map(|bin| bin.1).fold(0.0, f64::max);
+    let shown: Vec<(f64, f64)> =
+        response.iter().zip(&driven).filter(|(_, u)| u.1 > least).map(|(y, u)| (y.0, y.1 / u.1)).collect();
+    let (first, last) = (shown.first()?.0, shown.last()?.0);
+    tuning.found.modes.iter().all(|mode| first < mode.mode.hz() && mode.mode.hz() < last).then_some(shown)
+}
+
+/// Amplitudes of the response where the modes were fitted; over those of the command where that shows more.
+fn spectrum(tuning: &Tuning, [_, command, response]: &[String; 3]) -> Option<Figure> {
+    let units = [response, command].map(|name| unit(name).unwrap_or_default());
+    let (title, amplitude, mut shown) = if let Some(quotient) = quotient(tuning) {
+        let pure = units[0] == units[1] || units.contains(&"");
+        let unit = if pure { String::new() } else { units.join("/") };
+        let amplitude = Quantity::new("response over command", "", &unit);
+        ("Amplitude of the response over that of the command", amplitude, quotient)
+    } else {
+        let amplitude = Quantity::new("amplitude", "", units[0]);
+        let shown = amplitudes(tuning, &tuning.sampled.response, Window::Hann)?;
+        ("Spectrum of the fitted part of the response", amplitude, shown)
+    };
     let highest = tuning.found.modes.iter().map(|mode| mode.mode.hz()).fold(0.0, f64::max);
-    let shown: Vec<(f64, f64)> = spectrum
-        .bins()
-        .map(|(w, amplitude)| (w / TAU, amplitude))
-        .filter(|(f, amplitude)| *f > 0.0 && *f < 3.0 * highest && *amplitude > 0.0)
-        .collect();
+    shown.retain(|(f, amplitude)| *f > 0.0 && *f < 3.0 * highest && *amplitude > 0.0);
     if shown.len() < 2 {
         return None;
     }
-    let unit = quantity(response).unit;
-    let mut panel = Panel::new(Quantity::new("amplitude", "", &unit).logarithmic()).line(
-        "",
-        Role::Reference,
-        thinned(shown.clone()),
-    );
-    let height = |hz: f64| {
-        let near = |a: &&(f64, f64), b: &&(f64, f64)| (a.0 - hz).abs().total_cmp(&(b.0 - hz).abs());
-        shown.iter().min_by(near).map_or(hz, |(_, amplitude)| *amplitude)
+    let mut panel = Panel::new(amplitude.logarithmic()).line("", Role::Reference, thinned(shown.clone()));
+    // A mode stands on the line, between its neighbours; where there is no line there is no place for it.
+    let on_line = |hz: f64| {
+        let above = shown.iter().position(|(f, _)| *f >= hz)?;
+        let (right, left) = (shown.get(above)?, shown.get(above.checked_sub(1)?)?);
+        let part = (hz - left.0) / (right.0 - left.0);
+        Some((hz, left.1.powf(1.0 - part) * right.1.powf(part)))
     };
-    let modes = tuning.found.modes.iter().map(|mode| (mode.mode.hz(), height(mode.mode.hz()))).collect();
-    panel = panel.marks("modes", modes);
+    let modes: Vec<(f64, f64)> =
+        tuning.found.modes.iter().filter_map(|mode| on_line(mode.mode.hz())).collect();
+    if !modes.is_empty() {
+        panel = panel.marks("modes", modes);
+    }
     let frequency = Quantity::new("frequency", "f", "Hz");
-    Some(Figure::new("spectrum", "Spectrum of the fitted part of the response", frequency).panel(panel))
+    Some(Figure::new("spectrum", title, frequency).panel(panel))
 }
 
-/// What the shapers for the first mode leave when its frequency is another.
+/// What the shapers for the first mode leave when its frequency is another: the recommended one and the shortest others.
 fn shapers(tuning: &Tuning) -> Figure {
-    let mut panel = Panel::new(Quantity::new("vibration left of a step", "V", ""));
-    let first = tuning.uncertain.first().zip(tuning.shaper.judged.first());
-    if let Some((mode, judged)) = first {
-        let kinds = judged.iter().zip([Role::Ours, Role::Second, Role::Third, Role::Fourth]);
-        for (shaper, role) in kinds {
-            let left = |part: f64| shaper.train.sensitivity(mode.mode(), part);
-            panel = panel.line(&shaper.name(), role, over_errors(left));
+    let mut panel = Panel::new(Quantity::new("vibration left of a step", "V", "%"));
+    let first = tuning.uncertain.first().zip(tuning.shaper.judged.first()).zip(tuning.shaper.chosen.first());
+    if let Some(((mode, judged), chosen)) = first {
+        let others = judged.iter().enumerate().filter(|(at, _)| at != chosen);
+        let others =
+            others.zip([Role::Second, Role::Third, Role::Fourth]).map(|((_, shaper), role)| (shaper, role));
+        let recommended = judged.get(*chosen).map(|shaper| (shaper, Role::Ours));
+        // The last line drawn is on top.
+        for (shaper, role) in others.chain(recommended) {
+            let left = |part: f64| 100.0 * shaper.train.sensitivity(mode.mode(), part);
+            panel = panel.line(&said(&shaper.name(), role), role, over_errors(left));
         }
         panel = known(panel, mode, tuning.deviations);
     }
-    Figure::new("shapers", "Shapers for the first mode when its frequency is off", off_by())
-        .panel(panel.limit(tuning.tolerated_part, "tolerated"))
+    let title = format!("Shapers for the mode at {} when its frequency is off", frequency(tuning, 0));
+    Figure::new("shapers", &title, off_by()).panel(panel.limit(100.0 * tuning.tolerated_part, "tolerated"))
+}
+
+/// A name in the legend, by its part.
+fn said(name: &str, role: Role) -> String {
+    if role == Role::Ours { format!("{name} (recommended)") } else { name.to_owned() }
 }
 
 /// The recommended move beside the S-curve, and what the response still does after them.
-fn moves(tuning: &Tuning, plan: &Plan) -> Figure {
+fn moves(tuning: &Tuning, plan: &Plan, [_, command, response]: &[String; 3]) -> Figure {
     let shown = compared(plan);
     let end = shown.iter().map(|(_, judged)| judged.motion.duration()).fold(0.0, f64::max);
     let slowest = tuning.uncertain.iter().map(|mode| mode.mode().damped_period()).fold(0.0, f64::max);
     let end = end + 3.0 * slowest;
     let samples = 1500;
     let times = || (0..=samples).map(|n| end * f64::from(n) / f64::from(samples));
-    let mut velocity = Panel::new(Quantity::new("velocity", "v", ""));
-    let mut acceleration = Panel::new(Quantity::new("acceleration", "a", ""));
-    let mut vibration = Panel::new(Quantity::new("vibration of the response", "", ""));
+    let per = |order| rate(unit(command).unwrap_or_default(), order);
+    let mut velocity = Panel::new(Quantity::new("velocity", "v", &per(1)));
+    let mut acceleration = Panel::new(Quantity::new("acceleration", "a", &per(2)));
+    let swings = Quantity::new("vibration of the response", "", unit(response).unwrap_or_default());
+    let mut vibration = Panel::new(swings);
     for (role, judged) in &shown {
-        let name = judged.kind.name();
+        let name = said(&judged.kind.name(), *role);
         let of = |value: &dyn Fn(profiles::Sample) -> f64| {
             times().map(|t| (t, value(judged.motion.sample(t)))).collect()
         };
@@ -140,8 +179,9 @@ fn moves(tuning: &Tuning, plan: &Plan) -> Figure {
 }
 
 /// What the moves leave when all frequencies are off by the same part.
-fn sensitivity(tuning: &Tuning, plan: &Plan) -> Figure {
-    let mut panel = Panel::new(Quantity::new("vibration at the end", "", "").logarithmic());
+fn sensitivity(tuning: &Tuning, plan: &Plan, [_, _, response]: &[String; 3]) -> Figure {
+    let unit = unit(response).unwrap_or_default();
+    let mut panel = Panel::new(Quantity::new("vibration at the end", "", unit).logarithmic());
     for (role, judged) in compared(plan) {
         let left = |part: f64| -> f64 {
             let amplitudes = tuning.uncertain.iter().map(|mode| {
@@ -151,7 +191,7 @@ fn sensitivity(tuning: &Tuning, plan: &Plan) -> Figure {
             // A zero has no place on an axis of decades.
             amplitudes.sum::<f64>().max(1e-2 * plan.task.tolerated)
         };
-        panel = panel.line(&judged.kind.name(), role, over_errors(left));
+        panel = panel.line(&said(&judged.kind.name(), role), role, over_errors(left));
     }
     if let Some(mode) = tuning.uncertain.first() {
         panel = known(panel, mode, tuning.deviations);
@@ -160,12 +200,24 @@ fn sensitivity(tuning: &Tuning, plan: &Plan) -> Figure {
         .panel(panel.limit(plan.task.tolerated, "tolerated"))
 }
 
-/// The best move, the S-curve, and the best of other kinds.
+/// The S-curve, the best of other kinds, and the recommended move, which is drawn last: on top.
 fn compared(plan: &Plan) -> Vec<(Role, &JudgedMove)> {
-    let plain = plan.plain().into_iter().map(|judged| (Role::Reference, judged));
-    let others = plan.moves.moves.iter().filter(|judged| judged.kind != MoveKind::SCurve);
-    let roles = [Role::Ours, Role::Second, Role::Third];
-    plain.chain(roles.into_iter().zip(others)).collect()
+    let best = plan.moves.best();
+    // Of one mode a chain of averages may be the shaped S-curve: the same line twice.
+    let twin = |a: &JudgedMove, b: &JudgedMove| {
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs();
+        near(a.motion.duration(), b.motion.duration()) && near(a.worst, b.worst)
+    };
+    let plain = plan.plain().filter(|plain| best.is_none_or(|best| best.kind != plain.kind));
+    let mut others: Vec<&JudgedMove> = Vec::new();
+    for judged in plan.moves.moves.iter().filter(|judged| judged.kind != MoveKind::SCurve) {
+        if !best.into_iter().chain(others.iter().copied()).any(|shown| twin(shown, judged)) {
+            others.push(judged);
+        }
+    }
+    let plain = plain.map(|judged| (Role::Reference, judged));
+    let others = [Role::Second, Role::Third].into_iter().zip(others);
+    plain.into_iter().chain(others).chain(best.map(|judged| (Role::Ours, judged))).collect()
 }
 
 fn off_by() -> Quantity {

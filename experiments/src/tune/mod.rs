@@ -19,7 +19,7 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use identify::Route;
 use optimize::MoveKind;
-use profiles::{Limits, write_csv};
+use profiles::{Limits, Profile, write_csv};
 use thiserror::Error;
 
 pub use analysis::{Plan, Question, Tuning, Wanted, tune};
@@ -140,9 +140,9 @@ pub fn run(arguments: &Arguments, root: &Path, typed: &str, out: &mut dyn Write)
     }
     if let Some(best) = tuning.plan.as_ref().and_then(|plan| plan.moves.best()) {
         let mut table = String::new();
-        let unit = unit_of(&about.names[1]);
-        write_csv(&best.motion, arguments.tick.unwrap_or(tuning.sampled.period), &unit, &mut table)
-            .map_err(|error| RequestError(error.to_string()))?;
+        let (unit, tick) = (unit_of(&about.names[1]), arguments.tick.unwrap_or(tuning.sampled.period));
+        check_rows(best.motion.duration(), tick)?;
+        write_csv(&best.motion, tick, &unit, &mut table).map_err(|error| RequestError(error.to_string()))?;
         put(&staging.folder().join(MOVE), table.as_bytes())?;
     }
     let page = page::page(&tuning, &about, &figures, typed)?;
@@ -151,15 +151,15 @@ pub fn run(arguments: &Arguments, root: &Path, typed: &str, out: &mut dyn Write)
     let folder = staging.finish()?;
 
     writeln!(out, "{}", words::about(&tuning, &about))?;
-    for line in words::response(&tuning).iter().chain(&tuning.remarks) {
+    for line in words::response(&tuning, &about).iter().chain(&tuning.remarks) {
         writeln!(out, "  {line}")?;
     }
-    write!(out, "\n{}", words::aligned(&words::modes(&tuning)))?;
+    write!(out, "\n{}", words::aligned(&words::modes(&tuning, &about)))?;
     if let Some(plan) = &tuning.plan {
-        let few = words::shortened(words::moves(plan), 4, &MoveKind::SCurve.name());
+        let few = words::shortened(words::moves(plan, &about), 4, &MoveKind::SCurve.name());
         write!(out, "\n{}", words::aligned(&few))?;
     }
-    writeln!(out, "\n{}", words::answer(&tuning).join("\n"))?;
+    writeln!(out, "\n{}", words::answer(&tuning, &about).join("\n"))?;
     writeln!(out, "{}", folder.join(PAGE).display())?;
     Ok(0)
 }
@@ -222,6 +222,11 @@ impl Arguments {
         if let Some(tick) = self.tick {
             positive("--tick", tick)?;
         }
+        for (name, time) in [("--from", self.from), ("--to", self.to)] {
+            if let Some(time) = time.filter(|time| !time.is_finite()) {
+                return Err(RequestError(format!("{name} must be finite, got {time}")));
+            }
+        }
         if !(self.deviations >= 0.0 && self.deviations.is_finite()) {
             return Err(RequestError(format!("--deviations must not be negative, got {}", self.deviations)));
         }
@@ -250,8 +255,24 @@ fn left_out(log: &LogFile) -> Vec<String> {
     remarks
 }
 
+/// A table that fits on a disk and into a spreadsheet.
+fn check_rows(duration: f64, tick: f64) -> Result<(), RequestError> {
+    const MOST: f64 = 1e6;
+    let rows = (duration / tick).ceil() + 1.0;
+    if rows <= MOST {
+        return Ok(());
+    }
+    Err(RequestError(format!(
+        "the table of the move, {} s in ticks of {tick} s, would have {rows:e} rows, the most is {MOST:e}: choose a longer \
+         --tick",
+        crate::number::short(duration)
+    )))
+}
+
 /// The unit behind a column's name, as a table may bear it.
 fn unit_of(name: &str) -> String {
-    let unit = name.split_once(['[', '(']).map(|(_, unit)| unit.trim_end_matches([']', ')']).trim());
-    unit.filter(|unit| !unit.is_empty() && !unit.contains([',', '"'])).unwrap_or("unit").to_owned()
+    columns::unit(name)
+        .filter(|unit| !unit.is_empty() && !unit.contains([',', '"']))
+        .unwrap_or("unit")
+        .to_owned()
 }

@@ -47,30 +47,23 @@ pub(super) fn page(tuning: &Tuning, about: &About, figures: &[Figure], command: 
     let mut sections = vec![Section {
         id: "modes",
         title: "The modes",
-        paragraphs: words::response(tuning),
-        tables: vec![words::modes(tuning)],
+        paragraphs: words::response(tuning, about).iter().map(|words| words::sentence(words)).collect(),
+        tables: vec![words::modes(tuning, about)],
         figures: views(&["log", "fit", "spectrum"])?,
     }];
     if let Some(plan) = &tuning.plan {
         sections.push(Section {
             id: "moves",
             title: "The move",
-            paragraphs: vec![format!(
-                "A distance of {}, limits {}, {}, {} of velocity, acceleration and jerk, {} of vibration tolerated.",
-                plan.task.distance,
-                plan.task.limits.velocity().upper,
-                plan.task.limits.acceleration().upper,
-                plan.task.limits.jerk().upper,
-                crate::number::short(plan.task.tolerated)
-            )],
-            tables: vec![words::moves(plan)],
+            paragraphs: vec![words::task(plan, about)],
+            tables: vec![words::moves(plan, about)],
             figures: views(&["move", "sensitivity"])?,
         });
     }
     sections.push(Section {
         id: "shaper",
         title: "The shaper",
-        paragraphs: vec!["For a profile that cannot be changed; * is recommended.".to_owned()],
+        paragraphs: vec!["For a profile that cannot be changed, one for every mode, one after the other; * is recommended.".to_owned()],
         tables: vec![words::shapers(tuning), words::impulses(tuning)],
         figures: views(&["shapers"])?,
     });
@@ -79,8 +72,8 @@ pub(super) fn page(tuning: &Tuning, about: &About, figures: &[Figure], command: 
         generated_by: GENERATED_BY,
         title: about.file.clone(),
         about: words::about(tuning, about),
-        answer: words::answer(tuning),
-        remarks: tuning.remarks.clone(),
+        answer: words::answer(tuning, about),
+        remarks: tuning.remarks.iter().map(|remark| words::sentence(remark)).collect(),
         sections,
         command: command.to_owned(),
         has_move: tuning.plan.is_some(),

@@ -58,6 +58,7 @@ struct ModePart {
 #[derive(Serialize)]
 struct ShaperPart {
     kinds: Vec<String>,
+    for_modes_hz: Vec<f64>,
     tolerated_part: f64,
     worst_part: f64,
     within: bool,
@@ -163,6 +164,7 @@ fn shaper(tuning: &Tuning) -> ShaperPart {
     let shaper = &tuning.shaper;
     ShaperPart {
         kinds: chosen(tuning).map(JudgedShaper::name).collect(),
+        for_modes_hz: tuning.found.modes.iter().map(|mode| mode.mode.hz()).collect(),
         tolerated_part: tuning.tolerated_part,
         worst_part: shaper.worst,
         within: shaper.within,

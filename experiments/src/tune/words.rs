@@ -2,19 +2,56 @@
 
 use std::f64::consts::TAU;
 
-use optimize::JudgedMove;
+use optimize::{JudgedMove, JudgedShaper};
 use profiles::Profile;
 use serde::Serialize;
 
 use super::analysis::{Plan, Tuning, class_words, route_words};
+use super::columns::{rate, unit};
 use super::parameters::{About, chosen};
-use crate::number::short;
+use crate::number::{pretty_unit, short};
 
 /// A table of texts.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Table {
-    pub(super) head: Vec<&'static str>,
+    pub(super) head: Vec<String>,
     pub(super) rows: Vec<Vec<String>>,
+}
+
+fn head<const N: usize>(names: [&str; N]) -> Vec<String> {
+    names.map(str::to_owned).into()
+}
+
+/// Units of command and response, empty where the log does not say.
+fn units(about: &About) -> [&str; 2] {
+    let [_, command, response] = &about.names;
+    [command, response].map(|name| unit(name).unwrap_or_default())
+}
+
+/// A number with its unit.
+fn with(x: f64, unit: &str) -> String {
+    if unit.is_empty() { short(x) } else { format!("{} {}", short(x), pretty_unit(unit)) }
+}
+
+/// The head of a column with its unit.
+fn column(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.to_owned() } else { format!("{name} [{}]", pretty_unit(unit)) }
+}
+
+/// Words that stand in a line of their own as a sentence.
+pub(super) fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+    let end = if words.ends_with('.') { "" } else { "." };
+    format!("{first}{}{end}", letters.as_str())
+}
+
+/// `a, b and c`.
+fn listed(items: &[String]) -> String {
+    match items {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => items.concat(),
+    }
 }
 
 /// What was read.
@@ -29,11 +66,12 @@ pub(super) fn about(tuning: &Tuning, about: &About) -> String {
 }
 
 /// What the response is like.
-pub(super) fn response(tuning: &Tuning) -> Vec<String> {
+pub(super) fn response(tuning: &Tuning, about: &About) -> Vec<String> {
+    let [command, unit] = units(about);
     let (figures, found) = (&tuning.figures, &tuning.found);
     let class = class_words(figures.class.as_ref().map(|class| class.class));
     let resolution = if figures.quantum > 0.0 {
-        format!(", resolution {}", short(figures.quantum))
+        format!(", resolution {}", with(figures.quantum, unit))
     } else {
         String::new()
     };
@@ -43,15 +81,17 @@ pub(super) fn response(tuning: &Tuning) -> Vec<String> {
         Some(gain) if figures.class.is_none() && gain.abs() < 0.01 => {
             lines.push("after a move the response is where it was before".to_owned());
         }
-        Some(gain) => lines.push(format!("the response goes {} for 1 of the command", short(gain))),
+        Some(gain) => lines.push({
+            format!("the response goes {} for {} of the command", with(gain, unit), with(1.0, command))
+        }),
         None => {}
     }
-    lines.push(format!("noise {} (standard deviation){resolution}", short(figures.noise)));
+    lines.push(format!("noise {} (standard deviation){resolution}", with(figures.noise, unit)));
     lines.push(format!("modes from the {}", route_words(found)));
     lines.push(format!(
         "they reproduce {} % of it and leave a standard deviation of {}",
         short(found.fit),
-        short(found.residual)
+        with(found.residual, unit)
     ));
     lines
 }
@@ -65,8 +105,26 @@ fn pm(value: f64, deviation: f64) -> String {
     format!("{value:.decimals$} ± {deviation:.decimals$}")
 }
 
+/// A frequency in the digits that its deviation leaves, four at most: `8.000 Hz`.
+fn hertz(hz: f64, deviation: f64) -> String {
+    let digits = |x: f64| -x.log10().floor();
+    let most = 3.0 + digits(hz);
+    let known = if deviation > 0.0 && deviation.is_finite() { digits(deviation).min(most) } else { most };
+    format!("{hz:.*} Hz", known.clamp(0.0, 12.0) as usize)
+}
+
+/// The frequency of the mode with this number, from zero.
+pub(super) fn frequency(tuning: &Tuning, n: usize) -> String {
+    tuning
+        .found
+        .modes
+        .get(n)
+        .map_or(String::new(), |mode| hertz(mode.mode.hz(), mode.frequency_deviation / TAU))
+}
+
 /// The modes with their deviations.
-pub(super) fn modes(tuning: &Tuning) -> Table {
+pub(super) fn modes(tuning: &Tuning, about: &About) -> Table {
+    let [_, unit] = units(about);
     let rows = tuning.found.modes.iter().enumerate().map(|(n, mode)| {
         let w = mode.mode.angular_frequency();
         vec![
@@ -77,13 +135,13 @@ pub(super) fn modes(tuning: &Tuning) -> Table {
             short(mode.amplitude),
         ]
     });
-    Table {
-        head: vec!["", "frequency [Hz]", "frequency [rad/s]", "damping ratio", "largest amplitude"],
-        rows: rows.collect(),
-    }
+    let mut head = head(["", "frequency [Hz]", "frequency [rad/s]", "damping ratio"]);
+    head.push(column("largest amplitude", unit));
+    Table { head, rows: rows.collect() }
 }
 
-pub(super) fn moves(plan: &Plan) -> Table {
+pub(super) fn moves(plan: &Plan, about: &About) -> Table {
+    let [_, unit] = units(about);
     let row = |judged: &JudgedMove| {
         let ms = |seconds: Option<f64>| seconds.map_or("never".to_owned(), |s| short(1e3 * s));
         vec![
@@ -96,27 +154,21 @@ pub(super) fn moves(plan: &Plan) -> Table {
             ms(Some(judged.total()).filter(|total| total.is_finite())),
         ]
     };
-    Table {
-        head: vec![
-            "move",
-            "duration [ms]",
-            "vibration left",
-            "at worst",
-            "settling [ms]",
-            "at rest after [ms]",
-        ],
-        rows: plan.moves.moves.iter().map(row).collect(),
-    }
+    let mut names = head(["move", "duration [ms]"]);
+    names.extend([column("vibration left", unit), column("at worst", unit)]);
+    names.extend(head(["settling [ms]", "at rest after [ms]"]));
+    Table { head: names, rows: plan.moves.moves.iter().map(row).collect() }
 }
 
 pub(super) fn shapers(tuning: &Tuning) -> Table {
-    let percent = |part: f64| format!("{} %", short(100.0 * part));
+    // Roundings of a zero are one.
+    let percent = |part: f64| format!("{} %", short(if part < 1e-12 { 0.0 } else { 100.0 * part }));
     let rows = tuning.shaper.judged.iter().zip(&tuning.shaper.chosen).enumerate().flat_map(
         |(n, (judged, chosen))| {
             judged.iter().enumerate().map(move |(at, shaper)| {
                 let mark = if at == *chosen { " *" } else { "" };
                 vec![
-                    format!("mode {}: {}{mark}", n + 1, shaper.name()),
+                    format!("{}: {}{mark}", frequency(tuning, n), shaper.name()),
                     short(1e3 * shaper.train.duration()),
                     percent(shaper.nominal),
                     percent(shaper.worst),
@@ -124,7 +176,7 @@ pub(super) fn shapers(tuning: &Tuning) -> Table {
             })
         },
     );
-    Table { head: vec!["shaper", "duration [ms]", "leaves of a step", "at worst"], rows: rows.collect() }
+    Table { head: head(["shaper", "duration [ms]", "leaves of a step", "at worst"]), rows: rows.collect() }
 }
 
 /// The impulses of the recommended shaper.
@@ -133,15 +185,31 @@ pub(super) fn impulses(tuning: &Tuning) -> Table {
     let row = |(n, impulse): (usize, &shaping::Impulse)| {
         vec![format!("impulse {}", n + 1), short(1e3 * impulse.time), short(impulse.amplitude)]
     };
-    Table { head: vec!["", "time [ms]", "amplitude"], rows: impulses.map(row).collect() }
+    Table { head: head(["", "time [ms]", "amplitude"]), rows: impulses.map(row).collect() }
+}
+
+/// The task of the move in a sentence.
+pub(super) fn task(plan: &Plan, about: &About) -> String {
+    let [command, response] = units(about);
+    let limits = plan.task.limits;
+    let limit = |x: f64, order| with(x, &rate(command, order));
+    format!(
+        "A distance of {} within a velocity of {}, an acceleration of {} and a jerk of {}; a vibration of {} is tolerated.",
+        with(plan.task.distance, command),
+        limit(limits.velocity().upper, 1),
+        limit(limits.acceleration().upper, 2),
+        limit(limits.jerk().upper, 3),
+        with(plan.task.tolerated, response)
+    )
 }
 
 /// What to do, a sentence each.
-pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
+pub(super) fn answer(tuning: &Tuning, about: &About) -> Vec<String> {
+    let [_, unit] = units(about);
     let mut lines = Vec::new();
     let k = short(tuning.deviations);
     if let Some((plan, best)) = tuning.plan.as_ref().and_then(|plan| Some((plan, plan.moves.best()?))) {
-        let tolerated = short(plan.task.tolerated);
+        let tolerated = with(plan.task.tolerated, unit);
         let whatever = format!("whatever the modes within {k} standard deviations");
         let name = best.kind.name();
         lines.push(match best.settling {
@@ -149,7 +217,7 @@ pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
                 "Recommended move: {name}, {} ms; at its end no more than {} is left swinging ({tolerated} tolerated), \
                  {whatever}.",
                 short(1e3 * best.motion.duration()),
-                short(best.worst)
+                with(best.worst, unit)
             ),
             Some(settling) => format!(
                 "Recommended move: {name}, {} ms, and {} ms more until no more than {tolerated} is left swinging, \
@@ -159,7 +227,7 @@ pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
             ),
             None => format!(
                 "No move comes to {tolerated} of vibration by itself; {name} leaves least: {} at worst.",
-                short(best.worst)
+                with(best.worst, unit)
             ),
         });
         if let Some(plain) = plan.plain().filter(|plain| plain.kind != best.kind) {
@@ -169,18 +237,20 @@ pub(super) fn answer(tuning: &Tuning) -> Vec<String> {
             lines.push(format!(
                 "The S-curve within the same limits takes {} ms, leaves {} at worst and {settling}.",
                 short(1e3 * plain.motion.duration()),
-                short(plain.worst)
+                with(plain.worst, unit)
             ));
         }
     }
-    let names: Vec<String> = chosen(tuning).map(|judged| judged.name()).collect();
+    let named =
+        |(n, judged): (usize, &JudgedShaper)| format!("{} at {}", judged.name(), frequency(tuning, n));
+    let names: Vec<String> = chosen(tuning).enumerate().map(named).collect();
     let shaper = &tuning.shaper;
     let all = if names.len() > 1 { ", one after the other" } else { "" };
     let falls = if shaper.within { "" } else { ", which is more than tolerated; no shaper here leaves less" };
     lines.push(format!(
         "Where the profile cannot be changed, put it through {}{all}: {} ms longer, of a step it leaves {} % of the \
          vibration at worst ({} % tolerated){falls}.",
-        names.join(" and "),
+        listed(&names),
         short(1e3 * shaper.train.duration()),
         short(100.0 * shaper.worst),
         short(100.0 * tuning.tolerated_part)
@@ -197,12 +267,11 @@ pub(super) fn shortened(table: Table, rows: usize, kept: &str) -> Table {
 
 /// A table for the terminal: columns two blanks apart, the numbers to the right.
 pub(super) fn aligned(table: &Table) -> String {
-    let head: Vec<String> = table.head.iter().map(|name| (*name).to_owned()).collect();
-    let lines: Vec<&Vec<String>> = std::iter::once(&head).chain(&table.rows).collect();
+    let lines: Vec<&Vec<String>> = std::iter::once(&table.head).chain(&table.rows).collect();
     let width = |column: usize| {
         lines.iter().filter_map(|line| line.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
-    let widths: Vec<usize> = (0..head.len()).map(width).collect();
+    let widths: Vec<usize> = (0..table.head.len()).map(width).collect();
     let mut text = String::new();
     for line in lines {
         let mut row = String::new();
@@ -223,6 +292,31 @@ pub(super) fn aligned(table: &Table) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_frequency_has_the_digits_that_are_known() {
+        for (hz, deviation, text) in [
+            (7.999_92, 0.000_35, "8.000 Hz"),
+            (18.4, 0.3, "18.4 Hz"),
+            (2.147, 0.027, "2.15 Hz"),
+            (113.13, 1.26, "113 Hz"),
+            (0.012_345, 0.0, "0.01235 Hz"),
+            (240.0, f64::INFINITY, "240.0 Hz"),
+        ] {
+            assert_eq!(hertz(hz, deviation), text);
+        }
+    }
+
+    #[test]
+    fn words_become_sentences_and_lists() {
+        assert_eq!(sentence("noise 1e-5 m"), "Noise 1e-5 m.");
+        assert_eq!((sentence("Ends."), sentence("")), ("Ends.".to_owned(), ".".to_owned()));
+        let items = ["a", "b", "c"].map(str::to_owned);
+        assert_eq!(
+            [listed(&items), listed(&items[..2]), listed(&items[..1])],
+            ["a, b and c", "a and b", "a"]
+        );
+    }
 
     #[test]
     fn a_number_has_the_digits_of_its_deviation() {

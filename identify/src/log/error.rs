@@ -40,8 +40,8 @@ pub enum LogError {
     },
     /// The command rests, and the response does not swing beyond its noise.
     #[error(
-        "no mode stands out in {rests} rests of the command: the response then moves by {movement} about its end, its \
-         noise has a standard deviation of {noise}"
+        "no mode stands out where the command rests after a move ({rests} in the log): the response then moves by {movement} \
+         about its end, its noise has a standard deviation of {noise}"
     )]
     NothingSwings {
         /// Rests after a move that were looked at.

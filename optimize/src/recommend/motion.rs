@@ -4,6 +4,7 @@ use profiles::{Chain, Complex, Extrema, Profile, SCurve, Sample};
 use shaping::{Shaped, Shaper};
 
 use super::shapers::{CAPACITY, shaper_name};
+use crate::vibration_free::{Robustness, VibrationFreeMove};
 
 /// Sections of a chain for four modes.
 pub(super) const SECTIONS: usize = 191;
@@ -21,6 +22,8 @@ pub enum MoveKind {
         /// Order of the zeros.
         order: usize,
     },
+    /// The time optimum that leaves nothing of the modes, or little of their neighbours.
+    Optimum(Robustness),
 }
 
 impl MoveKind {
@@ -32,6 +35,11 @@ impl MoveKind {
             Self::Shaped(shaper) => format!("S-curve with {}", shaper_name(shaper)),
             Self::Chain { order: 1 } => "chain of averages".to_owned(),
             Self::Chain { order } => format!("chain of averages, zeros of order {order}"),
+            Self::Optimum(Robustness::None) => "time optimum".to_owned(),
+            Self::Optimum(Robustness::DoubleZero) => "time optimum, double zeros".to_owned(),
+            Self::Optimum(Robustness::Band { half_width, .. }) => {
+                format!("time optimum for frequencies within {:.2} %", 100.0 * half_width)
+            }
         }
     }
 }
@@ -46,6 +54,8 @@ pub enum Motion {
     Shaped(Box<Shaped<SCurve, CAPACITY>>),
     /// A step through a chain of averages.
     Chain(Box<Chain<SECTIONS>>),
+    /// The time optimum.
+    Optimum(Box<VibrationFreeMove>),
 }
 
 impl Motion {
@@ -54,6 +64,7 @@ impl Motion {
             Self::SCurve(profile) => profile.as_ref(),
             Self::Shaped(profile) => profile.as_ref(),
             Self::Chain(profile) => profile.as_ref(),
+            Self::Optimum(profile) => profile.as_ref(),
         }
     }
 }

@@ -7,6 +7,7 @@ use super::error::{RecommendError, not_negative, positive};
 use super::motion::{Motion, MoveKind};
 use super::region::{Region, UncertainMode};
 use super::shapers::{all_together, kinds};
+use crate::vibration_free::{Robustness, plan};
 
 /// What a move has to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,8 +104,8 @@ pub fn recommend_move(
     let without = judged(MoveKind::SCurve, Motion::SCurve(Box::new(plain)));
     // What an insensitive shaper may leave of the vibration.
     let part = tolerated / without.worst.max(tolerated);
-    let with = candidates(modes, &plain, task, part);
-    let mut moves: Vec<JudgedMove> = with.into_iter().map(|(kind, motion)| judged(kind, motion)).collect();
+    let with = candidates(modes, &plain, task, part).into_iter().chain(optima(modes, task));
+    let mut moves: Vec<JudgedMove> = with.map(|(kind, motion)| judged(kind, motion)).collect();
     moves.push(without);
     moves.sort_by(|a, b| a.total().total_cmp(&b.total()));
     let tie = moves.first().map_or(0.0, JudgedMove::total) + 1e-3 * plain.duration();
@@ -138,6 +139,28 @@ fn candidates(
         Some((MoveKind::Shaped(shaper), Motion::Shaped(Box::new(shaped))))
     });
     chains.chain(shaped).collect()
+}
+
+/// The time optimum with every robustness; one that is not found is left out.
+fn optima(modes: &[UncertainMode], task: &MoveTask) -> Vec<(MoveKind, Motion)> {
+    /// What a band may leave, as a part of what is tolerated: the rest is for the damping.
+    const PART: f64 = 0.8;
+    if modes.is_empty() {
+        return Vec::new();
+    }
+    let all: Vec<Mode> = modes.iter().map(UncertainMode::mode).collect();
+    let parts = modes.iter().map(|mode| mode.frequency_deviation() / mode.mode().angular_frequency());
+    let half_width = task.deviations * parts.fold(0.0, f64::max);
+    let largest = modes.iter().map(UncertainMode::participation).fold(0.0, f64::max);
+    let residual = PART * task.tolerated / (task.distance.abs() * largest * modes.len() as f64);
+    let band = Robustness::Band { half_width, residual };
+    let kinds = [Robustness::None, Robustness::DoubleZero, band].into_iter();
+    kinds
+        .filter_map(|robustness| {
+            let motion = plan(task.distance, &task.limits, &all, robustness).ok()?;
+            Some((MoveKind::Optimum(robustness), Motion::Optimum(Box::new(motion))))
+        })
+        .collect()
 }
 
 fn judged(

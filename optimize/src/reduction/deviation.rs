@@ -3,6 +3,7 @@
 use profiles::nurbs::{BezierSegment, Homogeneous, NurbsCurve};
 
 use super::error::ReductionError;
+use super::pieces::{pieces, split};
 
 /// Bound and attained value are brought as close as this.
 const CLOSE: f64 = 1e-6;
@@ -64,7 +65,7 @@ pub(super) struct Difference<const D: usize> {
 impl<const D: usize> Difference<D> {
     pub(super) fn new(a: &NurbsCurve<D>, b: &NurbsCurve<D>) -> Result<Self, ReductionError> {
         check_domain(a, b.domain())?;
-        let (left, right) = (with_knots_of(a, b)?.bezier_segments(), with_knots_of(b, a)?.bezier_segments());
+        let (left, right) = (pieces(a, b), pieces(b, a));
         let products = products(a.degree(), b.degree());
         let count = a.degree() + b.degree() + 1;
         let mut points = Vec::with_capacity(left.len() * count);
@@ -146,16 +147,6 @@ pub(super) fn check_domain<const D: usize>(
     Err(ReductionError::Domain { lower: domain.lower, upper: domain.upper, from, to })
 }
 
-/// `curve` with the inner knots of `other` in addition to its own.
-fn with_knots_of<const D: usize>(
-    curve: &NurbsCurve<D>,
-    other: &NurbsCurve<D>,
-) -> Result<NurbsCurve<D>, ReductionError> {
-    let inside = |knot: &f64| curve.knots().multiplicity(*knot) == 0;
-    let missing: Vec<f64> = other.knots().distinct().map(|(knot, _)| knot).filter(inside).collect();
-    if missing.is_empty() { Ok(curve.clone()) } else { Ok(curve.refined(&missing)?) }
-}
-
 /// `products[i][j]`: the share of the product of coefficients `i` and `j` in coefficient `i + j`.
 fn products(a: usize, b: usize) -> Vec<Vec<f64>> {
     let binomials = |n: usize| -> Vec<f64> {
@@ -202,23 +193,10 @@ fn difference<const D: usize>(
 /// Appends the control points of both halves of a piece.
 fn halve<const D: usize>(piece: &[Homogeneous<D>], into: &mut Vec<Homogeneous<D>>) {
     let start = into.len();
-    let count = piece.len();
     into.extend_from_slice(piece);
     into.extend_from_slice(piece);
-    let (left, right) = into[start..].split_at_mut(count);
-    // De Casteljau in place: the left ends of the levels are the left half, what is left is the right half.
-    for (level, left) in (1..count).zip(left.iter_mut().skip(1)) {
-        for index in 0..count - level {
-            right[index] = middle(&right[index], &right[index + 1]);
-        }
-        *left = right[0];
-    }
-}
-
-fn middle<const D: usize>(a: &Homogeneous<D>, b: &Homogeneous<D>) -> Homogeneous<D> {
-    let mut weighted = a.weighted;
-    weighted.iter_mut().zip(&b.weighted).for_each(|(x, y)| *x = 0.5 * *x + 0.5 * y);
-    Homogeneous { weighted, weight: 0.5 * a.weight + 0.5 * b.weight }
+    let (left, right) = into[start..].split_at_mut(piece.len());
+    split(left, right, 0.5);
 }
 
 /// Length of the point.

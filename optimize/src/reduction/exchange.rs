@@ -11,8 +11,8 @@ use super::reduce::{Reduced, judged};
 /// How close to their optimum the samples are brought from round to round; the last one until no peak is left.
 const GAPS: [f64; 3] = [3e-2, 3e-3, 3e-4];
 
-/// Rounds of adding samples; three or four are enough.
-const ROUNDS: usize = 10;
+/// Rounds of adding samples; four or five are enough.
+const ROUNDS: usize = 12;
 
 /// The reduction with the least largest distance over the whole curve, and a bound that no other falls below.
 pub(super) fn least_largest<const D: usize>(
@@ -21,11 +21,12 @@ pub(super) fn least_largest<const D: usize>(
     points: Vec<Homogeneous<D>>,
 ) -> Result<Reduced<D>, ReductionError> {
     let grid = grid(problem);
-    let mut start = Centre { points: problem.scaled(points), level: 0.0 };
+    let mut points = problem.scaled(points);
     let mut samples: Vec<Sample<D>> = grid.iter().skip(1).step_by(2).copied().collect();
-    samples.extend(peaks(problem, &grid, &start.points, 0.0));
+    samples.extend(peaks(problem, &grid, &points, 0.0));
+    let mut start = Centre { points: points.clone(), level: 0.0 };
     let mut bound = 0.0_f64;
-    for round in 0.. {
+    for round in 0..ROUNDS {
         let [.., last] = GAPS;
         let gap = GAPS.get(round).copied().unwrap_or(last);
         let (centre, near) = minimax(problem, &samples, &start, gap);
@@ -33,18 +34,18 @@ pub(super) fn least_largest<const D: usize>(
         // Peaks that are about to rise come along, until the last rounds.
         let above = if gap > last { 1.0 - gap } else { 1.0 + last };
         let more = peaks(problem, &grid, &centre.points, centre.level * above);
-        if round >= ROUNDS || (more.is_empty() && gap <= last) {
+        if more.is_empty() && gap <= last {
             // Between the grid there may be another one yet.
             let found = judged(curve, problem, &centre.points, bound * problem.size)?;
-            if round >= ROUNDS || found.deviation.attained <= centre.level * above * problem.size {
+            if found.deviation.attained <= centre.level * above * problem.size {
                 return Ok(found);
             }
             samples.push(problem.sample(found.deviation.at));
         }
         samples.extend(more);
-        start = near;
+        (start, points) = (near, centre.points);
     }
-    judged(curve, problem, &start.points, bound * problem.size)
+    judged(curve, problem, &points, bound * problem.size)
 }
 
 /// Parameters closer at the ends of each span, where a polynomial is steeper.

@@ -8,7 +8,7 @@ use super::system::{Curvature, System, stepped};
 /// The control points of the least mean square distance from there, with the ends tied: over the parameter, of
 /// `(x w, y w, ..., w)` where weights are free, else of the points `(x, y, ...)`.
 ///
-/// Exact for polynomials: the quadrature has as many nodes per span as the curve has control points.
+/// Exact for polynomials: the quadrature has one node per span more than the degree of the curve.
 pub(super) fn mean_square<const D: usize>(
     problem: &Problem<D>,
     mut points: Vec<Homogeneous<D>>,

@@ -8,6 +8,7 @@ mod exchange;
 mod mean_square;
 mod minimax;
 mod options;
+mod pieces;
 mod problem;
 mod reduce;
 mod sampled;

@@ -75,11 +75,11 @@ pub enum Weights {
     Given(Vec<f64>),
     /// Free but for the first and the last, which are the curve's.
     Inner,
-    /// All free, from a tenth of the smallest to ten times the largest of the curve.
+    /// All free, from a tenth of the smallest to ten times the largest of the curve where both have the same mean.
     Free,
 }
 
-/// What a reduction keeps at both ends, exactly.
+/// What a reduction keeps at both ends: the first point to the bit, the last one to a rounding where its weight changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// The end points.

@@ -230,7 +230,7 @@ impl<const D: usize> Problem<D> {
         points
     }
 
-    /// The reduced curve where the curve is; its ends to the bit.
+    /// The reduced curve where the curve is; its ends to the bit, the last one to a rounding where its weight changes.
     pub(super) fn restored(
         &self,
         points: &[Homogeneous<D>],

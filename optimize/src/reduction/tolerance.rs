@@ -11,7 +11,7 @@ use super::reduce::{Reduced, kept, onto};
 const MOST_POINTS: usize = 4096;
 
 /// The optimum is looked for up to so many control points; beyond, least squares are good enough.
-const MOST_FOR_OPTIMUM: usize = 128;
+const MOST_FOR_OPTIMUM: usize = 64;
 
 /// Least squares deviate by about this many times the optimum where it is worth a try.
 const NEAR: f64 = 8.0;

@@ -3,7 +3,6 @@
 use profiles::Interval;
 use profiles::switched::Arc;
 
-use super::Motion;
 use super::structure::Structure;
 use super::task::{Band, Place, Task};
 
@@ -51,14 +50,13 @@ pub(super) fn fuller(task: &Task, structure: &Structure, arcs: &[Arc]) -> Option
 /// Over factors `x` of the frequency within `h` of `c` the response to the jerk is `q(c) + (x - c) q'(c)`, of which the
 /// magnitude is largest at an end, and no more than `h^2 / 2` times a bound of `q''` beyond that. Intervals are halved until
 /// the bound suffices.
-pub(super) fn is_certified(task: &Task, motion: &Motion) -> bool {
-    let end = motion.duration();
+pub(super) fn is_certified(task: &Task, arcs: &[Arc]) -> bool {
+    let end: f64 = arcs.iter().map(|arc| arc.duration).sum();
     task.bands.iter().all(|band| {
         let slowest = band.place(band.factors.lower).pole.re;
         // |p|^2 times the integral of |j| R^2 e^(Re p R), with R the time left.
         let mut left = end;
-        let integral: f64 = motion
-            .arcs()
+        let integral: f64 = arcs
             .iter()
             .map(|arc| {
                 let before = left;
@@ -73,7 +71,7 @@ pub(super) fn is_certified(task: &Task, motion: &Motion) -> bool {
             rounds += 1;
             let (centre, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
             let place = band.place(centre);
-            let [value, slope] = place.responses(motion.arcs(), true);
+            let [value, slope] = place.responses(arcs, true);
             // r is |p| times the derivative by the pole, and the pole is a multiple of the factor.
             let slope = slope * (place.pole / (place.pole.norm() * centre)) * half;
             let bound = (value + slope).norm().max((value - slope).norm()) + 0.5 * half * half * curvature;

@@ -24,6 +24,9 @@ pub enum VibrationFreeError {
     /// A distance for a change of velocity, m.
     #[error("a change of velocity has no distance to plan anew, got {0} m")]
     NoDistance(f64),
+    /// A period of a clock on which there is no such motion, s.
+    #[error("no motion changes its jerk on the ticks of a clock with a period of {0} s only")]
+    Period(f64),
     /// The search did not get to a motion that meets all conditions.
     #[error("the search ended with a violation of {violation:e} of the motion")]
     NotConverged {

@@ -16,7 +16,7 @@ const EXCHANGES: usize = 40;
 /// Steps of the programmes that come to the aid of Newton's method.
 const RESCUE_STEPS: usize = 25;
 /// Times that places of a band are added to them, and the part of what is tolerated that is all of it.
-const FILLINGS: usize = 3;
+const FILLINGS: usize = 2;
 const FULL: f64 = 0.98;
 /// What a linear programme leaves of durations and limits.
 const SETTLED: Blur = Blur { shortest: 1e-4, acceleration: 1e-2, velocity: 2e-3, turn: 1e-5 };
@@ -26,7 +26,7 @@ const SHORTEST: f64 = 1e-9;
 const MET: f64 = 1e-10;
 
 /// A motion that meets all that is asked.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found {
     pub(super) structure: Structure,
     pub(super) motion: Motion,

@@ -2,6 +2,7 @@
 
 mod asked;
 mod band;
+mod clocked;
 mod conditions;
 mod costate;
 mod error;
@@ -16,6 +17,7 @@ mod settle;
 mod structure;
 mod task;
 
+pub use clocked::ClockedMove;
 pub use error::VibrationFreeError;
 pub use motion::VibrationFreeMove;
 

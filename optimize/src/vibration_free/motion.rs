@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-12;
 const S_CURVE: Blur = Blur { shortest: 1e-12, acceleration: 1e-9, velocity: 1e-9, turn: 0.0 };
 
 /// The shortest motion that leaves nothing (or no more than is tolerated) of given modes, see [`plan`](super::plan).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct VibrationFreeMove {
     profile: Piecewise<MOST_ARCS>,
     motion: Switched<MOST_ARCS>,
@@ -162,24 +162,40 @@ impl VibrationFreeMove {
 
     /// The motion, if it is all that was asked.
     fn verified(self) -> Result<Self, VibrationFreeError> {
+        let banded = matches!(self.robustness, Robustness::Band { .. });
+        let violation = if banded && !band::is_certified(&self.task, self.found.motion.arcs()) {
+            band::worst(&self.task, self.found.motion.arcs())
+        } else {
+            self.violation(&self.profile)
+        };
+        if violation > 0.0 { Err(VibrationFreeError::NotConverged { violation }) } else { Ok(self) }
+    }
+
+    /// Whether a profile for the same end is all that was asked; bands are looked at at their peaks only.
+    pub(super) fn holds<P: Profile>(&self, profile: &P) -> bool {
+        self.violation(profile) <= 0.0
+    }
+
+    /// By how much a profile passes limits, or leaves more of the modes than it may.
+    fn violation<P: Profile>(&self, profile: &P) -> f64 {
         let mut violation = 0.0_f64;
         let mut take =
             |value: f64| violation = if value.is_nan() { f64::INFINITY } else { violation.max(value) };
-        if !matches!(self.robustness, Robustness::Band { .. }) {
-            for mode in &self.modes {
-                take(residual_vibration(&self.profile, *mode) / self.size(mode) - EXACT);
+        match self.robustness {
+            Robustness::Band { .. } => {}
+            Robustness::None | Robustness::DoubleZero => {
+                self.modes.iter().for_each(|mode| {
+                    take(residual_vibration(profile, *mode) / self.size(mode) - EXACT);
+                });
             }
-        } else if !band::is_certified(&self.task, &self.found.motion) {
-            take(band::worst(&self.task, self.found.motion.arcs()));
         }
-        let Extrema { velocity, acceleration, .. } = self.profile.extrema();
-        for (range, bounds) in
-            [(velocity, self.limits.velocity()), (acceleration, self.limits.acceleration())]
-        {
+        let Extrema { velocity, acceleration, jerk, .. } = profile.extrema();
+        let limits = [self.limits.velocity(), self.limits.acceleration(), self.limits.jerk()];
+        for (range, bounds) in [velocity, acceleration, jerk].into_iter().zip(limits) {
             take(range.upper / bounds.upper - 1.0 - ROUNDING);
             take(range.lower / bounds.lower - 1.0 - ROUNDING);
         }
-        if violation > 0.0 { Err(VibrationFreeError::NotConverged { violation }) } else { Ok(self) }
+        violation
     }
 
     /// What a residual is set against: the distance, or the change of velocity over the frequency.
@@ -190,6 +206,28 @@ impl VibrationFreeMove {
                 ((to - from).abs() / mode.angular_frequency()).max(f64::MIN_POSITIVE)
             }
         }
+    }
+
+    pub(super) fn profile(&self) -> &Piecewise<MOST_ARCS> {
+        &self.profile
+    }
+
+    pub(super) fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Instants at which the jerk jumps or the velocity turns, s.
+    pub(super) fn instants(&self) -> Vec<f64> {
+        let arcs = self.motion.states().zip(self.motion.arcs());
+        let turns = arcs.filter_map(|(state, arc)| {
+            let turn = -state.acceleration / arc.jerk;
+            (turn > 0.0 && turn < arc.duration).then_some(state.time + turn)
+        });
+        self.motion.states().map(|state| state.time).chain(turns).collect()
+    }
+
+    pub(super) fn request(&self) -> Request {
+        self.request
     }
 
     /// The sections of the motion.

@@ -17,10 +17,10 @@ const PARTS: usize = 3;
 const NEAR: f64 = 3e-3;
 /// And one that tells the structure.
 const TELLING: f64 = 0.1;
-/// Grids before Newton's method gets aid, which takes longer than a finer grid.
-const UNAIDED: usize = 2;
-/// Grids before the best motion is taken that there is.
-const ROUNDS: usize = 8;
+/// Grids at which Newton's method gets aid, which takes longer than a finer grid.
+const AIDED: &[usize] = &[3, 4, 5, 6, 7];
+/// The same for bands, with which a programme takes longer yet.
+const AIDED_WITH_BANDS: &[usize] = &[3, 5];
 
 /// The shortest motion: the duration in which the furthest motion on a grid gets to the goal by the secant rule, and from
 /// every grid but the first, where the jerk switches, the optimum by exchange.
@@ -36,7 +36,8 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
     let mut last: Option<(f64, f64)> = None;
     let mut best: Option<Found> = None;
     let mut missed = f64::INFINITY;
-    for round in 0..ROUNDS {
+    let aided = if task.bands.is_empty() { AIDED } else { AIDED_WITH_BANDS };
+    for round in 0..=aided.iter().copied().max().unwrap_or(0) {
         let unit = duration / cells.iter().sum::<f64>();
         let Some(found) = OnGrid::furthest(&task, cells.iter().map(|cell| cell * unit).collect()) else {
             break;
@@ -48,7 +49,7 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
         if round > 0 && missed < TELLING {
             let structure = reading::structure(&task, &found);
             match structure
-                .and_then(|structure| exchanged(&task, structure, None, usize::from(round > UNAIDED)))
+                .and_then(|structure| exchanged(&task, structure, None, usize::from(aided.contains(&round))))
             {
                 Some(found) if found.multipliers.is_some() => return Ok(found),
                 Some(found) => best = Some(shorter(best, found)),

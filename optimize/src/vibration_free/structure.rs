@@ -6,7 +6,7 @@ use super::Motion;
 use super::task::{Place, Task};
 
 /// Arcs, where the motion meets limits, and where bands are as full as is tolerated.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Structure {
     pub(super) arcs: Vec<Arc>,
     pub(super) contacts: Vec<Contact>,

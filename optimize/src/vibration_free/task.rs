@@ -14,7 +14,7 @@ const VISIBLE: f64 = 1e-3;
 const PLACES: usize = 5;
 
 /// A mode of which a band of frequency may be left with a tolerated amplitude.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Band {
     /// Pole in the middle.
     pole: Complex<f64>,
@@ -51,7 +51,7 @@ impl Band {
 }
 
 /// A pole and what its response to the jerk may be at the end.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     pub(super) pole: Complex<f64>,
     pub(super) tolerated: f64,
@@ -78,7 +78,7 @@ impl Place {
 
 /// A motion upwards with the duration of the S-curve as the unit of time and the distance (or the change of velocity
 /// times that unit) as the unit of length.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Task {
     pub(super) velocity: Interval,
     pub(super) acceleration: Interval,
@@ -154,7 +154,7 @@ impl Task {
             longest += match robustness {
                 Robustness::None => half,
                 Robustness::DoubleZero => 2.0 * half,
-                Robustness::Band { .. } => 6.0 * half,
+                Robustness::Band { .. } => 8.0 * half,
             };
         }
         let task = Self {

@@ -74,7 +74,8 @@ impl<const D: usize> ArcLength<D> {
             let middle = 0.5 * (from + to);
             let share = tolerance * ((to - from) / whole);
             let closed = to - from <= narrow || middle <= from || middle >= to;
-            if reach.error <= share || closed {
+            // What rounding moves the piece by need not be halved: nothing would come of it but more pieces.
+            if reach.error <= share.max(table.rounding(from, to, reach.most)) || closed {
                 table.push(from, to, reach);
             } else {
                 open.push((middle, to));
@@ -92,9 +93,13 @@ impl<const D: usize> ArcLength<D> {
         let length = (half * speed.whole()).clamped(0.0, reach.most);
         self.pieces.push(Piece { from, to, before: self.length, length, speed });
         self.length += length;
-        // All nodes lie in one span: their derivatives are rounded like that of the middle.
+        self.error_bound += reach.error + self.rounding(from, to, length);
+    }
+
+    /// An allowance for the roundings of a piece: all its nodes lie in one span, where derivatives round alike.
+    fn rounding(&self, from: f64, to: f64, length: f64) -> f64 {
         let [_, slope, ..] = self.curve.negligible_derivatives(0.5 * (from + to), Side::After);
-        self.error_bound += reach.error + slope * (to - from) + 4.0 * f64::EPSILON * length;
+        slope * (to - from) + 4.0 * f64::EPSILON * length
     }
 
     /// The curve.
@@ -123,7 +128,7 @@ impl<const D: usize> ArcLength<D> {
         let index = self.pieces.partition_point(|piece| piece.from <= u).saturating_sub(1);
         match self.pieces.get(index) {
             Some(piece) if u >= piece.to => piece.before + piece.length,
-            Some(piece) => piece.before + gauss::sixteen(piece.from, u, |u| self.speed(u)),
+            Some(piece) => piece.before + self.until(piece, u),
             None => 0.0,
         }
     }
@@ -139,6 +144,12 @@ impl<const D: usize> ArcLength<D> {
         }
     }
 
+    /// Length from the start of a piece to a parameter in it. A rule that is far off, which a loose tolerance allows, is
+    /// held within the piece.
+    fn until(&self, piece: &Piece, u: f64) -> f64 {
+        gauss::sixteen(piece.from, u, |u| self.speed(u)).clamped(0.0, piece.length)
+    }
+
     /// The parameter `rest` after the start of a piece: Newton's method within a bracket.
     fn parameter_in(&self, piece: &Piece, rest: f64) -> f64 {
         if rest <= 0.0 {
@@ -152,7 +163,7 @@ impl<const D: usize> ArcLength<D> {
         let (mut low, mut high) = (piece.from, piece.to);
         let place = piece.speed.place(rest / piece.length);
         let mut u = (0.5 * (low + high) + 0.5 * width * place).clamped(low, high);
-        let mut length = gauss::sixteen(piece.from, u, speed);
+        let mut length = self.until(piece, u);
         for _ in 0..MOST_STEPS {
             let missing = rest - length;
             if missing > 0.0 {
@@ -173,7 +184,7 @@ impl<const D: usize> ArcLength<D> {
             length = if (next - u).abs() <= 1e-3 * width {
                 length + gauss::four(u, next, speed)
             } else {
-                gauss::sixteen(piece.from, next, speed)
+                self.until(piece, next)
             };
             u = next;
         }

@@ -161,8 +161,14 @@ impl<const D: usize> Part<D> {
         // The derivative of the squared distance is 2 B . H / w^3.
         let slope =
             Bernstein::sum(self.piece.weighted.iter().zip(self.piece.hodograph()).map(|(b, h)| b.times(&h)));
-        let negligible = self.rounding;
-        let mut signs = slope.coefficients().iter().filter(|c| c.abs() > negligible).map(|c| *c > 0.0);
+        // A coefficient goes with three weights, and so does its rounding: where they are small it is not negligible.
+        let weight = &self.piece.weight;
+        let light = weight.coefficients().iter().any(|w| *w < 0.5);
+        let cubed = light.then(|| weight.squared().times(weight));
+        let weights = cubed.iter().flat_map(|cubed| cubed.coefficients().iter().skip(1).copied());
+        let sizes = weights.chain(core::iter::repeat(1.0));
+        let felt = |(c, size): &(&f64, f64)| c.abs() > self.rounding * size;
+        let mut signs = slope.coefficients().iter().zip(sizes).filter(felt).map(|(c, _)| *c > 0.0);
         let Some(first) = signs.next() else { return Minima::AtAnEnd };
         let (changes, _) =
             signs.fold((0, first), |(changes, last), sign| (changes + u32::from(sign != last), sign));

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use profiles::nurbs::{ArcLength, Knots, NurbsCurve, NurbsError, Side};
 use proptest::prelude::*;
 
-use crate::curves::{CASES, a_curve, at, distance, norm, size, unevenness};
+use crate::curves::{CASES, a_curve, a_light_curve, at, distance, norm, size, unevenness};
 
 /// The table's length is the true one within its own bound, which is rounding.
 fn is<const D: usize>(curve: &NurbsCurve<D>, length: f64) {
@@ -66,6 +66,22 @@ fn a_point_has_no_length() {
     assert!((0.0..=1.0).contains(&path.parameter_at(1.0)));
 }
 
+/// A tolerance far below rounding ends in rounding, and in few pieces.
+#[test]
+fn no_tolerance_is_too_small() {
+    let cusp =
+        NurbsCurve::bezier(&[[1.0, -1.0], [-1.0 / 3.0, 1.0], [-1.0 / 3.0, -1.0], [1.0, 1.0]]).expect("cusp");
+    let point = NurbsCurve::rational_bezier(&[[3.1, 1.7]; 4], &[1.0, 2.0, 0.3, 1.0]).expect("point");
+    let circle = NurbsCurve::<2>::circle([1e3, 1e3], 1.0).and_then(|c| c.raised(4)).expect("circle");
+    for curve in [cusp, point, circle] {
+        let (rough, error) = curve.length(1e-9).expect("length");
+        let (length, rounding) = curve.length(5e-324).expect("length");
+        assert!(
+            (length - rough).abs() <= error + rounding && rounding <= 1e-12 * (length + 10.0 * size(&curve))
+        );
+    }
+}
+
 #[test]
 fn lengths_and_parameters_outside_are_brought_in() {
     let path = ArcLength::new(NurbsCurve::line([0.0], [2.0]).expect("line"), 1e-12).expect("table");
@@ -112,6 +128,23 @@ proptest! {
         let (rough, bound) = curve.length(tolerance)?;
         prop_assert!(bound <= tolerance + error, "{} above {}", bound, tolerance);
         prop_assert!((rough - length).abs() <= bound + error);
+    }
+
+    /// On the way too, whatever the weights.
+    #[test]
+    fn the_bound_holds_on_the_way(
+        curve in a_light_curve::<2>(), digits in 0..9_i32, places in prop::array::uniform8(0.0..1.0)
+    ) {
+        let fine = ArcLength::new(curve.clone(), 1e-13 * size(&curve))?;
+        let tolerance = if digits > 0 { 10.0_f64.powi(-digits) * size(&curve) } else { f64::INFINITY };
+        let rough = ArcLength::new(curve.clone(), tolerance)?;
+        for place in places {
+            let u = at(&curve, place);
+            let (length, wanted) = (rough.length_at(u), fine.length_at(u));
+            prop_assert!((0.0..=rough.length()).contains(&length));
+            let allowed = rough.error_bound() + fine.error_bound();
+            prop_assert!((length - wanted).abs() <= allowed, "{} for {}, allowed {}", length, wanted, allowed);
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use profiles::nurbs::{Knots, NurbsCurve, NurbsError};
 use proptest::prelude::*;
 
-use crate::curves::{CASES, a_curve, at, distance, norm, size};
+use crate::curves::{CASES, a_curve, a_light_curve, at, distance, norm, size};
 
 /// The smallest distance of 2000 samples, and how much nearer the curve can be between two of them.
 fn sampled<const D: usize>(curve: &NurbsCurve<D>, target: &[f64; D]) -> (f64, f64) {
@@ -49,6 +49,20 @@ proptest! {
         let speed = norm(&curve.derivatives::<2>(u)[1]).max(norm(&curve.derivatives::<2>(found.parameter)[1]));
         let allowed = 64.0 * f64::EPSILON * (size(&curve) + speed * curve.domain().magnitude());
         prop_assert!(found.distance <= allowed, "{} above {}", found.distance, allowed);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(CASES))]
+
+    #[test]
+    fn light_weights_hide_no_branch(curve in a_light_curve::<2>(), target in prop::array::uniform2(-1.5..1.5)) {
+        let target = target.map(|x: f64| x * size(&curve));
+        let found = curve.closest(target)?;
+        let nearest = sampled(&curve, &target).0;
+        // Squared distances are known to 64 roundings, distances to the root of that.
+        let rounding = 8.0 * f64::EPSILON.sqrt() * size(&curve);
+        prop_assert!(found.distance <= nearest + rounding, "{} beyond {}", found.distance, nearest);
     }
 }
 

@@ -35,6 +35,18 @@ pub(crate) fn a_curve<const D: usize>() -> impl Strategy<Value = NurbsCurve<D>> 
     })
 }
 
+/// The same with weights from 1e-14 to 1.
+pub(crate) fn a_light_curve<const D: usize>() -> impl Strategy<Value = NurbsCurve<D>> {
+    a_curve().prop_flat_map(|curve| {
+        let exponents = prop::collection::vec(-14.0..0.0, curve.homogeneous_points().len());
+        exponents.prop_map(move |exponents: Vec<f64>| {
+            let weights: Vec<f64> = exponents.iter().map(|x| 10.0_f64.powf(*x)).collect();
+            let points: Vec<[f64; D]> = curve.control_points().collect();
+            NurbsCurve::with_knots(curve.knots().clone(), &points, &weights).expect("curve")
+        })
+    })
+}
+
 /// The parameter that lies `place` of the domain from its start.
 pub(crate) fn at<const D: usize>(curve: &NurbsCurve<D>, place: f64) -> f64 {
     let domain = curve.domain();

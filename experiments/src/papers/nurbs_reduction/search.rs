@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use argmin::core::Executor;
 use optimize::reduction::{Criterion, Freed, Reduced, Reduction, ReductionSearch, Weights, deviation};
-use optimize::{GeneticOptions, GeneticSwarm, reduce_degree};
+use optimize::{GeneticOptions, GeneticSwarm, Mates, reduce_degree};
 use profiles::nurbs::NurbsCurve;
 
 /// This file, from the root of the repository.
@@ -28,12 +28,12 @@ pub(super) const SETTINGS: [(&str, Freed); 3] = [
 ];
 
 /// The options of a method, so that all evaluate equally often: in one generation a swarm evaluates all particles, a
-/// genetic algorithm the children of half of them, the hybrid both.
+/// genetic algorithm the children of half of them, the hybrid both. Its mates are from the pool, as the patent has it.
 fn options(method: &str, iterations: u64) -> GeneticOptions {
     match method {
         "swarm" => GeneticOptions { pool: 0.0, ..GeneticOptions::new(POPULATION, 3 * iterations / 2) },
         "genetic" => GeneticOptions::genetic(POPULATION, 3 * iterations),
-        _ => GeneticOptions::new(POPULATION, iterations),
+        _ => GeneticOptions { mates: Mates::Pool, ..GeneticOptions::new(POPULATION, iterations) },
     }
 }
 
