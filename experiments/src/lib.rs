@@ -12,6 +12,7 @@ pub mod readme;
 pub mod registry;
 pub mod report;
 pub mod row;
+pub mod studies;
 pub mod tune;
 
 /// The README of the repository, whose examples are tests of this crate.

@@ -9,6 +9,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
     crate::papers::belt_pso::EXPERIMENT,
     crate::papers::cross_coupling::EXPERIMENT,
     crate::papers::nurbs_reduction::EXPERIMENT,
+    crate::studies::zero_vibration::EXPERIMENT,
 ];
 
 /// The experiments that `ids` name, in the order of `experiments`; all of them when `ids` is empty.

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{DEMO, OTHER, bench, folder, names};
-use experiments::figure::{Figure, Panel, Quantity, Role, Theme, Width, to_png, to_svg};
+use experiments::figure::{Figure, Panel, Quantity, Role, Shape, Theme, Width, to_png, to_svg};
 use experiments::report::summary::Summary;
 use serde_json::{Value, json};
 
@@ -182,6 +182,36 @@ fn odd_figures_are_drawn_too() {
         }
     }
     assert!(!to_png(&figure).unwrap().is_empty());
+}
+
+#[test]
+fn a_map_and_a_panel_with_its_own_legend() {
+    let quantity = |name: &str| Quantity::new(name, "", "mm");
+    let places = Panel::new(quantity("length").logarithmic())
+        .places("chosen", Role::Fifth, Shape::Square, vec![(1.0, 10.0), (2.0, 100.0)])
+        .places("other", Role::Sixth, Shape::Triangle, vec![(1.0, 100.0)]);
+    let line = |name: &str, role| Panel::new(quantity(name)).line(name, role, vec![(1.0, 0.0), (2.0, 1.0)]);
+    let second = line("low", Role::Seventh).line("high", Role::Second, vec![(1.0, 1.0), (2.0, 2.0)]);
+    let figure = Figure::new("map", "", quantity("x")).panel(places).panel(second);
+    let texts = |figure: &Figure| -> Vec<(String, f64)> {
+        let svg = to_svg(figure, Width::Wide, Theme::Light).unwrap();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let texts = document.descendants().filter(|n| n.tag_name().name() == "text");
+        texts
+            .map(|n| (n.text().unwrap_or("").to_owned(), n.attribute("y").unwrap().parse().unwrap()))
+            .collect()
+    };
+    let place = |figure: &Figure, name: &str| texts(figure).iter().find(|t| t.0 == name).unwrap().1;
+    // In common: one line above everything.
+    assert_eq!(place(&figure, "chosen").to_bits(), place(&figure, "high").to_bits());
+    assert!(place(&figure, "high") < place(&figure, "length [mm]"));
+    // Each between its label and its panel.
+    let own = figure.own_legends();
+    assert!(place(&own, "length [mm]") < place(&own, "chosen"));
+    assert!(place(&own, "chosen") < place(&own, "low [mm]") && place(&own, "low [mm]") < place(&own, "high"));
+    let svg = to_svg(&own, Width::Narrow, Theme::Dark).unwrap();
+    // In colour, and twice on the map and once in the legend.
+    assert_eq!(svg.matches("#f0e442").count(), 3, "{svg}");
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use kuva::render::color::Color;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::Figure;
-use super::render::{Geometry, LETTER, Style, TEXT, Theme, text};
+use super::render::{Geometry, LETTER, Style, TEXT, Theme, shape, text};
+use super::{Panel, Shape};
 
 /// Height of a line of the legend, px.
 pub(super) const LINE: f64 = 20.0;
@@ -13,21 +13,29 @@ pub(super) const LINE: f64 = 20.0;
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Swatch {
     Line(&'static str),
-    Mark(usize),
+    Mark(Shape, Option<&'static str>),
     Band,
 }
 
-/// The legend of a figure, set; x from the left edge of the panels and the line of each.
-pub(super) fn of(figure: &Figure, theme: Theme, geometry: &Geometry) -> Vec<Placed> {
-    place(entries(figure, theme), geometry)
+/// The legend of some panels, set; x from the left edge of the panels and the line of each.
+pub(super) fn of(panels: &[Panel], theme: Theme, geometry: &Geometry) -> Vec<Placed> {
+    place(entries(panels, theme), geometry)
+}
+
+/// How high a legend is, px.
+pub(super) fn height(legend: &[Placed]) -> f64 {
+    LINE * legend.last().map_or(0.0, |entry| entry.2 + 1.0)
 }
 
 /// Every named thing once; nothing where the labels of the panels say it all.
-fn entries(figure: &Figure, theme: Theme) -> Vec<(Swatch, String)> {
+fn entries(panels: &[Panel], theme: Theme) -> Vec<(Swatch, String)> {
     let mut entries: Vec<(Swatch, String)> = Vec::new();
-    for panel in &figure.panels {
+    for panel in panels {
         let lines = panel.series.iter().map(|s| (Swatch::Line(theme.colour(s.role)), &s.name));
-        let marks = panel.marks.iter().enumerate().map(|(n, m)| (Swatch::Mark(n), &m.name));
+        let marks = panel.marks.iter().enumerate().map(|(n, m)| {
+            let colour = m.shape.and(m.roles.first()).map(|role| theme.colour(*role));
+            (Swatch::Mark(shape(n, m), colour), &m.name)
+        });
         let bands = panel.bands.iter().map(|b| (Swatch::Band, &b.name));
         for (swatch, name) in lines.chain(marks).chain(bands) {
             let entry = (swatch, name.clone());
@@ -86,15 +94,18 @@ pub(super) fn draw_entry(
             stroke_dasharray: None,
         }),
         Swatch::Band => scene.add(square(x, 20.0, style.ink, 0.12)),
-        Swatch::Mark(n) if n % 3 == 1 => scene.add(square(x + 6.0, 8.0, style.ink, 1.0)),
-        Swatch::Mark(n) if n % 3 == 2 => {
-            text(scene, (x + 10.0, y + 4.5), "▲", TEXT, TextAnchor::Middle, style.ink);
+        Swatch::Mark(Shape::Square, colour) => {
+            scene.add(square(x + 6.0, 8.0, colour.unwrap_or(style.ink), 1.0));
         }
-        Swatch::Mark(_) => scene.add(Primitive::Circle {
+        Swatch::Mark(Shape::Triangle, colour) => {
+            let colour = colour.unwrap_or(style.ink);
+            text(scene, (x + 10.0, y + 4.5), "▲", TEXT, TextAnchor::Middle, colour);
+        }
+        Swatch::Mark(Shape::Circle, colour) => scene.add(Primitive::Circle {
             cx: x + 10.0,
             cy: y,
             r: 4.0,
-            fill: Color::from(style.ink),
+            fill: Color::from(colour.unwrap_or(style.ink)),
             fill_opacity: None,
             stroke: None,
             stroke_width: None,

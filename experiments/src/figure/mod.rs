@@ -81,6 +81,12 @@ pub enum Role {
     Third,
     /// The fourth.
     Fourth,
+    /// The fifth.
+    Fifth,
+    /// The sixth.
+    Sixth,
+    /// The seventh.
+    Seventh,
     /// What the others are measured against: a set point, a rigid plant, no shaper.
     Reference,
 }
@@ -96,7 +102,18 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Published points: markers without a line.
+/// The shape of a marker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// A disc.
+    Circle,
+    /// A square.
+    Square,
+    /// A triangle.
+    Triangle,
+}
+
+/// Published points, or places on a map: markers without a line.
 #[derive(Clone, Debug)]
 pub struct Marks {
     /// Name in the legend and in the table.
@@ -105,6 +122,8 @@ pub struct Marks {
     pub points: Vec<(f64, f64)>,
     /// The line each point belongs to, whose colour it has; none where they belong to no line.
     pub roles: Vec<Role>,
+    /// On a map, whose markers are larger: their shape, which the legend shows in their colour. Elsewhere the shapes take turns.
+    pub shape: Option<Shape>,
 }
 
 /// What several runs span: the stretch from the least to the greatest, lightly filled.
@@ -175,7 +194,7 @@ impl Panel {
     /// Adds published points.
     #[must_use]
     pub fn marks(mut self, name: &str, points: Vec<(f64, f64)>) -> Self {
-        self.marks.push(Marks { name: name.to_owned(), points, roles: Vec::new() });
+        self.marks.push(Marks { name: name.to_owned(), points, roles: Vec::new(), shape: None });
         self
     }
 
@@ -183,7 +202,15 @@ impl Panel {
     #[must_use]
     pub fn marks_of(mut self, name: &str, points: Vec<(Role, (f64, f64))>) -> Self {
         let (roles, points) = points.into_iter().unzip();
-        self.marks.push(Marks { name: name.to_owned(), points, roles });
+        self.marks.push(Marks { name: name.to_owned(), points, roles, shape: None });
+        self
+    }
+
+    /// Adds places on a map, all of one colour and shape.
+    #[must_use]
+    pub fn places(mut self, name: &str, role: Role, shape: Shape, points: Vec<(f64, f64)>) -> Self {
+        let roles = vec![role; points.len()];
+        self.marks.push(Marks { name: name.to_owned(), points, roles, shape: Some(shape) });
         self
     }
 
@@ -251,19 +278,28 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Whether a unit is as long along y as along x, as on a map.
     pub to_scale: bool,
+    /// Whether every panel has a legend of its own, so that a colour may name another line in another panel.
+    pub own_legends: bool,
 }
 
 impl Figure {
     /// A figure without panels.
     #[must_use]
     pub fn new(id: &str, title: &str, x: Quantity) -> Self {
-        Self { id: id.to_owned(), title: title.to_owned(), x, panels: Vec::new(), to_scale: false }
+        let (id, title) = (id.to_owned(), title.to_owned());
+        Self { id, title, x, panels: Vec::new(), to_scale: false, own_legends: false }
     }
 
     /// Draws a unit as long along y as along x.
     #[must_use]
     pub fn to_scale(self) -> Self {
         Self { to_scale: true, ..self }
+    }
+
+    /// Gives every panel a legend of its own.
+    #[must_use]
+    pub fn own_legends(self) -> Self {
+        Self { own_legends: true, ..self }
     }
 
     /// Adds a panel below the others.

@@ -16,7 +16,7 @@ use kuva::render::theme::Theme as Chrome;
 use super::legend::{self, LINE};
 use super::simplify::simplify;
 use super::span::Span;
-use super::{Figure, Panel, Role};
+use super::{Figure, Marks, Panel, Role, Shape};
 
 /// Light for paper and for files, dark for a dark page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,6 +102,13 @@ impl Theme {
             (Role::Second, Self::Dark) => "#e69f00",
             (Role::Third, _) => "#009e73",
             (Role::Fourth, _) => "#cc79a7",
+            // The brighter ones of the set stand apart from the first two on either page.
+            (Role::Fifth, Self::Light) => "#e69f00",
+            (Role::Fifth, Self::Dark) => "#f0e442",
+            (Role::Sixth, Self::Light) => "#56b4e9",
+            (Role::Sixth, Self::Dark) => "#d55e00",
+            (Role::Seventh, Self::Light) => "#1a1a1a",
+            (Role::Seventh, Self::Dark) => "#e6e6e6",
             (Role::Reference, Self::Light) => "#767676",
             (Role::Reference, Self::Dark) => "#9a9a9a",
         }
@@ -121,30 +128,43 @@ fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
     let figure = &placed(figure);
     let style = theme.style();
     let geometry = geometry(figure, width);
-    let legend = legend::of(figure, theme, &geometry);
-    let legend_lines = legend.last().map_or(0.0, |entry| entry.2 + 1.0);
-    let top = 6.0 + LINE * legend_lines;
-    let step = STRIP + geometry.plot;
-    let height = top + step * figure.panels.len() as f64 + FOOT;
+    let common = if figure.own_legends { &[][..] } else { figure.panels.as_slice() };
+    let common = legend::of(common, theme, &geometry);
+    let own = |panel| {
+        let panels = if figure.own_legends { std::slice::from_ref(panel) } else { &[] };
+        legend::of(panels, theme, &geometry)
+    };
+    let own: Vec<_> = figure.panels.iter().map(own).collect();
+    let top = 6.0 + legend::height(&common);
+    // A legend of its own stands between a panel and its label.
+    let strips: f64 = own.iter().map(|legend| STRIP + legend::height(legend)).sum();
+    let height = top + strips + geometry.plot * figure.panels.len() as f64 + FOOT;
 
     let mut scene = Scene::new(geometry.width, height);
     scene.background_color = Some(style.chrome.background.clone());
     scene.text_color = Some(style.ink.to_owned());
     scene.font_family = Some(FONT.to_owned());
-    for (entry, x, line) in legend {
-        legend::draw_entry(&mut scene, &entry, geometry.left + x, 6.0 + LINE * (line + 0.5), &style);
-    }
+    let show = |scene: &mut Scene, legend: &[legend::Placed], top: f64| {
+        for (entry, x, line) in legend {
+            legend::draw_entry(scene, entry, geometry.left + x, top + LINE * (line + 0.5), &style);
+        }
+    };
+    show(&mut scene, &common, 6.0);
     let xs = figure.panels.iter().flat_map(|panel| {
         let data = panel.columns().flat_map(|(_, points)| points.iter().map(|(x, _)| *x));
         data.chain(panel.bands.iter().flat_map(|band| [band.from, band.to]))
     });
     let most = if width == Width::Wide { 8.0 } else { 4.0 };
     let x = if figure.x.logarithmic { Span::of_decades(xs, most) } else { Span::of(xs, 0.0, most) };
-    for (n, panel) in figure.panels.iter().enumerate() {
+    // Room for the markers of a map.
+    let x = if figure.panels.iter().any(maps) { x.padded(0.02) } else { x };
+    let mut start = top;
+    for (n, (panel, legend)) in figure.panels.iter().zip(&own).enumerate() {
         let last = n + 1 == figure.panels.len();
         let ticks = if geometry.plot > 200.0 { 7.0 } else { 5.0 };
         let (x, y) = scaled(figure, (x, panel_span(panel, ticks)), (most, ticks), &geometry);
-        let start = top + step * n as f64;
+        let label = start + STRIP;
+        start += legend::height(legend);
         let plot = render_multiple(
             plots(panel, (x, y), &geometry, theme),
             layout(panel, (x, y), &geometry, &style, last),
@@ -156,15 +176,10 @@ fn draw(figure: &Figure, width: Width, theme: Theme) -> Result<Scene> {
         let clips = |e: &Primitive| matches!(e, Primitive::ClipStart { .. } | Primitive::ClipEnd);
         plot.elements.into_iter().filter(|e| !clips(e)).for_each(|element| scene.add(element));
         scene.add(Primitive::GroupEnd);
-        text(
-            &mut scene,
-            (geometry.left, start + STRIP - 7.0),
-            &panel.y.label(),
-            TEXT,
-            TextAnchor::Start,
-            style.ink,
-        );
+        text(&mut scene, (geometry.left, label - 7.0), &panel.y.label(), TEXT, TextAnchor::Start, style.ink);
+        show(&mut scene, legend, label - 2.0);
         name_limits(&mut scene, panel, y, start + STRIP, &geometry, &style);
+        start += STRIP + geometry.plot;
     }
     let middle = 0.5 * (geometry.left + geometry.width - geometry.right);
     text(&mut scene, (middle, height - 8.0), &figure.x.label(), TEXT, TextAnchor::Middle, style.ink);
@@ -226,7 +241,14 @@ fn geometry(figure: &Figure, width: Width) -> Geometry {
 fn panel_span(panel: &Panel, ticks: f64) -> Span {
     let data = panel.columns().flat_map(|(_, points)| points.iter().map(|(_, y)| *y));
     let values = data.chain(panel.limits.iter().map(|limit| limit.value));
-    if panel.y.logarithmic { Span::of_decades(values, ticks) } else { Span::of(values, 0.06, ticks) }
+    let span =
+        if panel.y.logarithmic { Span::of_decades(values, ticks) } else { Span::of(values, 0.06, ticks) };
+    if maps(panel) { span.padded(0.06) } else { span }
+}
+
+/// Whether a panel shows places on a map.
+fn maps(panel: &Panel) -> bool {
+    panel.marks.iter().any(|marks| marks.shape.is_some())
 }
 
 fn layout(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, style: &Style, last: bool) -> Layout {
@@ -288,8 +310,13 @@ fn plots(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, theme: Theme)
     for (n, marks) in panel.marks.iter().enumerate() {
         let dots = |points: Vec<(f64, f64)>, colour: &'static str, size: f64| {
             let plot = ScatterPlot::new().with_data(points).with_color(colour);
-            Plot::from(plot.with_marker(marker(n)).with_size(size))
+            Plot::from(plot.with_marker(marker(shape(n, marks))).with_size(size))
         };
+        if marks.shape.is_some() {
+            let placed = marks.points.iter().zip(&marks.roles);
+            plots.extend(placed.map(|(point, role)| dots(vec![*point], theme.colour(*role), 6.0)));
+            continue;
+        }
         // In ink first, so that a coloured point keeps a rim where it lies on its own line.
         plots.push(dots(marks.points.clone(), theme.style().ink, 4.5));
         let coloured = marks.points.iter().zip(&marks.roles);
@@ -298,11 +325,21 @@ fn plots(panel: &Panel, (x, y): (Span, Span), geometry: &Geometry, theme: Theme)
     plots
 }
 
-fn marker(n: usize) -> MarkerShape {
-    match n % 3 {
-        0 => MarkerShape::Circle,
-        1 => MarkerShape::Square,
-        _ => MarkerShape::Triangle,
+/// The shape of marks, which are the n-th of their panel.
+pub(super) fn shape(n: usize, marks: &Marks) -> Shape {
+    let in_turn = match n % 3 {
+        0 => Shape::Circle,
+        1 => Shape::Square,
+        _ => Shape::Triangle,
+    };
+    marks.shape.unwrap_or(in_turn)
+}
+
+fn marker(shape: Shape) -> MarkerShape {
+    match shape {
+        Shape::Circle => MarkerShape::Circle,
+        Shape::Square => MarkerShape::Square,
+        Shape::Triangle => MarkerShape::Triangle,
     }
 }
 

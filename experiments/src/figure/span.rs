@@ -18,6 +18,12 @@ impl Span {
         Self { from, to, step, decades: true }
     }
 
+    /// The same with a part of its length more at either end, and the same ticks.
+    pub(crate) fn padded(self, part: f64) -> Self {
+        let more = part * (self.to - self.from);
+        Self { from: self.from - more, to: self.to + more, ..self }
+    }
+
     /// Spans the finite `values` and `pad` of their range at either end, with about `ticks` ticks at most, a step of 1, 2
     /// or 5 times a power of ten apart. A flat line gets an axis around it.
     pub(crate) fn of(values: impl Iterator<Item = f64>, pad: f64, ticks: f64) -> Self {
@@ -119,6 +125,13 @@ mod tests {
         assert_eq!(of(-12500.0, 12500.0).tick(-10000.0), "−10000");
         assert_eq!(of(-2e7, 1e7).tick(-1e7), "−1e7");
         assert_eq!(of(-4.0, 4.0).tick(-1e-15), "0");
+    }
+
+    #[test]
+    fn a_padded_axis_keeps_its_ticks() {
+        let padded = Span::of_decades([0.0, 2.0].into_iter(), 5.0).padded(0.05);
+        assert_eq!((padded.from, padded.to, padded.step), (-0.1, 2.1, 1.0));
+        assert_eq!(padded.tick(2.0), "100");
     }
 
     #[test]

@@ -1,0 +1,3 @@
+//! One module per study of our own.
+
+pub mod zero_vibration;
