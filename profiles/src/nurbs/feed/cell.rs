@@ -164,9 +164,12 @@ impl<const D: usize> Piece<D> {
         self.stalled = if excess > STALL * self.excess { self.stalled + 1 } else { 0 };
         self.excess = excess;
         // Where halving does not help, the bounds are those of roundings: they hold, if loosely.
-        let is_fine =
-            length <= resolution.longest && (excess <= 1.0 || (self.stalled > MOST_STALLED && !is_point));
-        if is_fine && bounds.curvature.is_finite() { Verdict::Bounded(bounds) } else { undecided }
+        let is_fine = length <= resolution.longest && (excess <= 1.0 || self.stalled > MOST_STALLED);
+        if (is_fine || is_point) && bounds.curvature.is_finite() {
+            Verdict::Bounded(bounds)
+        } else {
+            undecided
+        }
     }
 
     /// Taylor coefficients of the coordinates by the own parameter: over the piece and in its middle.
