@@ -3,6 +3,7 @@
 use profiles::switched::{Arc, Switched};
 use profiles::{Complex, Extrema, Piecewise, Profile, Sample, Section, Sectioned};
 
+use super::band;
 use super::error::VibrationFreeError;
 use super::motion::VibrationFreeMove;
 use super::runs::Runs;
@@ -11,9 +12,9 @@ use super::{MOST_ARCS, Request};
 /// Runs of a motion on a clock: the arcs, and a tick about each switch.
 const MOST_RUNS: usize = 2 * MOST_ARCS;
 /// Ticks of their own on both sides of the tick in which a switch lies, tried one after the other.
-const MARGINS: [u64; 3] = [0, 1, 3];
-/// Ticks more than the motion needs, at most.
-const MOST_EXTRA: usize = 24;
+const MARGINS: [u64; 2] = [0, 1];
+/// Ticks more than the motion needs, tried one after the other.
+const EXTRA: [u64; 8] = [0, 1, 2, 3, 5, 8, 13, 21];
 /// The most ticks there may be.
 const MOST_TICKS: f64 = 1e9;
 /// Instants closer to a tick than this, in ticks, are on it.
@@ -52,7 +53,7 @@ impl ClockedMove {
 }
 
 impl VibrationFreeMove {
-    /// The motion with its switches on the ticks of a clock of `period` s, in as few ticks as that takes.
+    /// The motion with its switches on the ticks of a clock of `period` s, in the fewest ticks that are found.
     ///
     /// # Errors
     /// A period that is not positive and finite, or so long or short that there is no such motion.
@@ -62,7 +63,7 @@ impl VibrationFreeMove {
             return Err(VibrationFreeError::Period(period));
         }
         let fewest = (needed - ON_TICK).ceil().max(0.0) as u64;
-        for ticks in fewest..=fewest + MOST_EXTRA as u64 {
+        for ticks in EXTRA.map(|extra| fewest + extra) {
             for margin in MARGINS {
                 let clocked = Clocked::of(self, period, ticks, margin);
                 if let Some(profile) = clocked.and_then(|clocked| clocked.profile()) {
@@ -105,9 +106,13 @@ impl<'a> Clocked<'a> {
     /// The motion, if there is one in these ticks.
     fn profile(&self) -> Option<Piecewise<MOST_RUNS>> {
         let task = self.planned.task();
-        let lengths = self.runs.iter().map(|ticks| *ticks as f64 * (self.period / task.time)).collect();
+        let lengths: Vec<f64> =
+            self.runs.iter().map(|ticks| *ticks as f64 * (self.period / task.time)).collect();
         let unit = task.length / task.time.powi(3);
-        let arcs = Runs::new(task, lengths).gentlest()?;
+        let arcs = Runs::kept(task, lengths)?;
+        if !band::is_certified(task, &arcs) {
+            return None;
+        }
         let arcs: Vec<Arc> = arcs
             .iter()
             .zip(&self.runs)

@@ -15,6 +15,9 @@ pub enum VibrationFreeError {
         /// The most there may be.
         most: usize,
     },
+    /// A mode so slow that it takes the motion for a jump.
+    #[error("a mode of {0} rad/s is too slow for such a motion")]
+    Slow(f64),
     /// A half width of a band that is no part of the frequency.
     #[error("the half width of a band must lie between 0 and 1 of its frequency, got {0}")]
     HalfWidth(f64),

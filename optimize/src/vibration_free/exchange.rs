@@ -5,18 +5,20 @@ use profiles::switched::Contact;
 
 use super::Motion;
 use super::band;
-use super::improve::improved;
+use super::improve::{Verdict, verdict};
 use super::newton::{Optimum, stationary};
 use super::settle::settled;
 use super::structure::{Blur, Stay, Structure};
 use super::task::{Place, Task};
 
 /// Changes of the structure before it is given up.
-const EXCHANGES: usize = 40;
+const EXCHANGES: usize = 32;
 /// Steps of the programmes that come to the aid of Newton's method.
 const RESCUE_STEPS: usize = 25;
 /// The most arcs with which that is worth its time.
 const AIDED: usize = 32;
+/// The most arcs that are exchanged.
+const MOST_EXCHANGED: usize = 48;
 /// Times that places of a band are added to them, and the part of what is tolerated that is all of it.
 const FILLINGS: usize = 2;
 const FULL: f64 = 0.98;
@@ -54,6 +56,9 @@ fn unaided(task: &Task, start: Structure, known: Option<&[f64]>) -> Option<Found
     let mut best: Option<Found> = None;
     let mut added = None;
     for _ in 0..EXCHANGES {
+        if structure.arcs.len() > MOST_EXCHANGED {
+            break;
+        }
         let Some(optimum) = stationary(task, &structure, known.take()) else { break };
         structure.arcs = optimum.motion.arcs().to_vec();
         let durations = structure.arcs.iter().enumerate().map(|(index, arc)| (index, arc.duration));
@@ -73,13 +78,15 @@ fn unaided(task: &Task, start: Structure, known: Option<&[f64]>) -> Option<Found
             }
         } else if let Some(fuller) = band::fuller(task, &structure, optimum.motion.arcs()) {
             structure.places = fuller;
-        } else if let Some(better) = improved(task, &structure, &optimum) {
-            let found = Found { structure, motion: optimum.motion, multipliers: None };
-            best = Some(shorter(best, found));
-            structure = better;
         } else {
-            let Optimum { motion, multipliers } = optimum;
-            return Some(Found { structure, motion, multipliers: Some(multipliers) });
+            let Optimum { motion, multipliers } = optimum.clone();
+            let unproven = Found { structure: structure.clone(), motion, multipliers: None };
+            match verdict(task, &structure, &optimum) {
+                Verdict::Optimal => return Some(Found { multipliers: Some(multipliers), ..unproven }),
+                Verdict::Better(better) => structure = better,
+                Verdict::Unknown => return Some(shorter(best, unproven)),
+            }
+            best = Some(shorter(best, unproven));
         }
     }
     best
@@ -94,6 +101,9 @@ impl Found {
 /// Of two motions the shorter one; of two that last as long, but for a billionth, the one with fewer switches.
 pub(super) fn shorter(best: Option<Found>, found: Found) -> Found {
     let Some(best) = best else { return found };
+    if best.is_proven() != found.is_proven() {
+        return if best.is_proven() { best } else { found };
+    }
     let (a, b) = (best.motion.duration(), found.motion.duration());
     let order = |found: &Found| (found.motion.switches(), found.motion.effort());
     let better = if (a - b).abs() <= 1e-9 * a { order(&found) < order(&best) } else { b < a };
@@ -119,7 +129,7 @@ fn rescued(task: &Task, structure: &Structure) -> Option<Structure> {
 }
 
 /// The motion nearest to a structure that meets all that is asked.
-fn exact(task: &Task, structure: &Structure) -> Option<Found> {
+pub(super) fn exact(task: &Task, structure: &Structure) -> Option<Found> {
     let close = Motion::new(task.from, &structure.arcs)?;
     let motion = close.corrected(&task.goal, &task.zeros, &structure.contacts)?;
     let good = passed(task, &motion).is_none() && band::is_kept(task, motion.arcs());

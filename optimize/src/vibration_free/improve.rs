@@ -11,7 +11,7 @@ use super::task::Task;
 const NOTHING: f64 = 1e-7;
 /// Samples of an arc for each rad of the fastest mode, and the most there are.
 const DENSITY: f64 = 4.0;
-const MOST: f64 = 400.0;
+const MOST: f64 = 20_000.0;
 
 /// An interval of an arc in which the switching function asks for something else.
 #[derive(Debug, Clone, Copy)]
@@ -24,8 +24,18 @@ struct Wanted {
     by: f64,
 }
 
-/// The structure with what the switching function asks for most; none where the motion is optimal.
-pub(super) fn improved(task: &Task, structure: &Structure, optimum: &Optimum) -> Option<Structure> {
+/// What the switching function says of a motion.
+pub(super) enum Verdict {
+    /// There is none shorter.
+    Optimal,
+    /// A shorter one has this structure.
+    Better(Structure),
+    /// It cannot be told.
+    Unknown,
+}
+
+/// What the switching function asks for most, by samples.
+pub(super) fn verdict(task: &Task, structure: &Structure, optimum: &Optimum) -> Verdict {
     let costate = Costate::new(task, structure, optimum);
     let zeros = task.zeros.iter().map(|zero| zero.pole().im);
     let fastest = zeros.chain(structure.places.iter().map(|place| place.pole.im)).fold(1.0, f64::max);
@@ -37,9 +47,12 @@ pub(super) fn improved(task: &Task, structure: &Structure, optimum: &Optimum) ->
             _ if arc.jerk != 0.0 => (0, arc.jerk.signum()),
             Some(Stay::Velocity(limit)) => (2, limit.signum()),
             Some(Stay::Acceleration(limit)) => (1, -limit.signum()),
-            None => continue,
+            None => return Verdict::Unknown,
         };
-        let count = (4.0 + arc.duration * fastest * DENSITY).min(MOST).floor();
+        let count = (4.0 + arc.duration * fastest * DENSITY).floor();
+        if count > MOST {
+            return Verdict::Unknown;
+        }
         let step = arc.duration / count;
         let samples: Vec<f64> = (0..=count as usize)
             .map(|k| {
@@ -58,7 +71,10 @@ pub(super) fn improved(task: &Task, structure: &Structure, optimum: &Optimum) ->
             }
         }
     }
-    most.filter(|wanted| wanted.by > NOTHING * scale).map(|wanted| with(task, structure, wanted))
+    match most.filter(|wanted| wanted.by > NOTHING * scale) {
+        Some(wanted) => Verdict::Better(with(task, structure, wanted)),
+        None => Verdict::Optimal,
+    }
 }
 
 /// Runs of positive samples, with the index of their first one.

@@ -9,6 +9,7 @@ mod error;
 mod exchange;
 mod grid;
 mod improve;
+mod joined;
 mod motion;
 mod newton;
 mod reading;
@@ -31,7 +32,7 @@ use profiles::{Limits, Mode};
 /// The most modes that are dealt with at a time.
 const MOST_MODES: usize = 4;
 /// Arcs that a motion may have.
-pub const MOST_ARCS: usize = 64;
+pub const MOST_ARCS: usize = 128;
 
 type Motion = Switched<MOST_ARCS>;
 

@@ -8,7 +8,8 @@ use profiles::{
 
 use super::band;
 use super::error::VibrationFreeError;
-use super::exchange::{Found, exchanged};
+use super::exchange::{Found, exchanged, shorter};
+use super::joined::joined;
 use super::search::searched;
 use super::structure::{Blur, Structure};
 use super::task::Task;
@@ -20,6 +21,8 @@ const EXACT: f64 = 1e-12;
 const REACHED: f64 = 1e-10;
 /// Parts by which a number may be off for rounding.
 const ROUNDING: f64 = 1e-12;
+/// Rad of the fastest mode in the S-curve that are many.
+const MANY: f64 = 80.0;
 /// What the S-curve is known by.
 const S_CURVE: Blur = Blur { shortest: 1e-12, acceleration: 1e-9, velocity: 1e-9, turn: 0.0 };
 
@@ -57,7 +60,7 @@ impl VibrationFreeMove {
         }
         let found = match free_already(&task) {
             Some(found) => found,
-            None => searched(&task)?,
+            None => shortest(&task, request, limits, modes, robustness)?,
         };
         Self::in_units(task, found, request, limits, modes, robustness, s_curve.duration())
     }
@@ -168,12 +171,16 @@ impl VibrationFreeMove {
     /// The motion, if it is all that was asked.
     fn verified(self) -> Result<Self, VibrationFreeError> {
         let banded = matches!(self.robustness, Robustness::Band { .. });
-        let missed = self.missed();
+        let missed = self.missed().max(self.slopes());
         if missed.is_nan() || missed > REACHED {
             return Err(VibrationFreeError::NotConverged { violation: missed });
         }
-        let violation = if banded && !band::is_certified(&self.task, self.found.motion.arcs()) {
-            band::worst(&self.task, self.found.motion.arcs())
+        // The arcs that are delivered, in units of the task.
+        let unit = self.task.time.powi(3) / self.task.length;
+        let scaled = |arc: &Arc| Arc { jerk: arc.jerk * unit, duration: arc.duration / self.task.time };
+        let arcs: Vec<Arc> = self.arcs().iter().map(scaled).collect();
+        let violation = if banded && !band::is_certified(&self.task, &arcs) {
+            band::worst(&self.task, &arcs)
         } else {
             self.violation(&self.profile)
         };
@@ -192,7 +199,19 @@ impl VibrationFreeMove {
             .fold(0.0, f64::max)
     }
 
-    /// Whether a profile for the same end is all that was asked; bands are looked at at their peaks only.
+    /// What is left of the derivatives of double zeros, as a part of the motion.
+    fn slopes(&self) -> f64 {
+        let double = self.task.zeros.iter().filter(|zero| zero.is_double());
+        let left = double.map(|zero| {
+            let zero = Zero::at(zero.pole() / self.task.time, true);
+            let [_, slope] =
+                self.arcs().iter().fold(Default::default(), |response, arc| zero.after(response, arc));
+            slope.norm() / (zero.pole().norm() * zero.pole().im * self.task.length.abs())
+        });
+        left.fold(0.0, f64::max)
+    }
+
+    /// Whether a profile for the same end is all that was asked; of bands it says nothing.
     pub(super) fn holds<P: Profile>(&self, profile: &P) -> bool {
         self.violation(profile) <= 0.0
     }
@@ -292,6 +311,31 @@ impl VibrationFreeMove {
     #[must_use]
     pub fn is_proven(&self) -> bool {
         self.found.is_proven()
+    }
+}
+
+/// The shortest motion by a grid or by two ramps: these first where a grid would have few cells for a period.
+fn shortest(
+    task: &Task,
+    request: Request,
+    limits: &Limits,
+    modes: &[Mode],
+    robustness: Robustness,
+) -> Result<Found, VibrationFreeError> {
+    let joined = || joined(task, request, limits, modes, robustness);
+    let early = if task.fastest() > MANY { joined() } else { None };
+    if let Some(found) = early.as_ref().filter(|found| found.is_proven()) {
+        return Ok(found.clone());
+    }
+    let searched = searched(task);
+    if searched.as_ref().is_ok_and(Found::is_proven) {
+        return searched;
+    }
+    let late = if task.fastest() > MANY { early } else { joined() };
+    match (searched, late) {
+        (Ok(found), late) => Ok(late.into_iter().fold(found, |best, found| shorter(Some(best), found))),
+        (Err(_), Some(found)) => Ok(found),
+        (Err(error), None) => Err(error),
     }
 }
 

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use profiles::Interval;
 use profiles::switched::{Arc, Goal, SwitchState, Zero};
 
+use super::band;
 use super::task::{Place, Task};
 use crate::programme::{Affine, Programme};
 
@@ -12,7 +13,9 @@ const ROOM: f64 = 1e-6;
 /// What end and zeros may be missed by where the largest coefficient is one.
 const MISSED: f64 = 1e-12;
 /// Room left in what is tolerated of a band, as a part of it.
-const BAND_ROOM: f64 = 1e-4;
+const BAND_ROOM: f64 = 1e-5;
+/// Times that places of a band are added.
+const FILLINGS: usize = 8;
 
 /// Runs of constant jerk of given lengths: end, zeros, limits and bands are then linear (or convex) in the jerk.
 pub(super) struct Runs<'a> {
@@ -27,13 +30,22 @@ struct Ends {
 }
 
 impl<'a> Runs<'a> {
-    pub(super) fn new(task: &'a Task, lengths: Vec<f64>) -> Self {
-        Self { task, lengths }
+    /// The gentlest motion that leaves no more of any band than is tolerated, between the places of the task too.
+    pub(super) fn kept(task: &Task, lengths: Vec<f64>) -> Option<Vec<Arc>> {
+        let mut task = task.clone();
+        for _ in 0..FILLINGS {
+            let arcs = Runs { task: &task, lengths: lengths.clone() }.gentlest()?;
+            if band::is_kept(&task, &arcs) {
+                return Some(arcs);
+            }
+            task.add_places(band::peaks(&task, &arcs), &arcs);
+        }
+        None
     }
 
     /// The motion whose jerk takes the smallest part of its limits, its end and its zeros to rounding; none where there is
     /// none.
-    pub(super) fn gentlest(&self) -> Option<Vec<Arc>> {
+    fn gentlest(&self) -> Option<Vec<Arc>> {
         let jerk = self.exact(self.programme()?)?;
         Some(
             jerk.iter()

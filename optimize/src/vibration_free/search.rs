@@ -17,8 +17,6 @@ const FEWEST: f64 = 64.0;
 const MOST: f64 = 240.0;
 /// By how much longer than the shortest a motion is tried with a jerk that is not always full.
 const LONGER: [f64; 10] = [3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 0.02, 0.05, 0.2, 0.5, 1.0];
-/// Times that places of a band are added to it.
-const FILLINGS: usize = 4;
 /// The most cells of a finer grid.
 const FINEST: usize = 480;
 /// Cells into which one near a switch is cut.
@@ -41,9 +39,7 @@ const AIDED_WITH_BANDS: &[usize] = &[3, 5];
 pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
     // The places of bands grow from grid to grid.
     let mut task = task.clone();
-    let poles = task.zeros.iter().map(|zero| zero.pole()).chain(task.places.iter().map(|place| place.pole));
-    let fastest = poles.map(|pole| pole.norm()).fold(0.0, f64::max);
-    let count = (DENSITY * fastest).clamp(FEWEST, MOST) as usize;
+    let count = (DENSITY * task.fastest()).clamp(FEWEST, MOST) as usize;
     let mut cells = vec![1.0; count];
     let (mut early, mut late) = (1.0, task.longest);
     let mut duration = 1.0 + 0.2 * (task.longest - 1.0);
@@ -119,15 +115,8 @@ fn freely(task: &Task, runs: &[f64], shortest: f64) -> Option<Found> {
 fn on(task: &Task, grid: &[f64], duration: f64) -> Option<Found> {
     let unit = duration / grid.iter().sum::<f64>();
     let cells: Vec<f64> = grid.iter().map(|cell| cell * unit).collect();
-    let mut task = task.clone();
-    for _ in 0..FILLINGS {
-        let arcs = Runs::new(&task, cells.clone()).gentlest()?;
-        if band::is_kept(&task, &arcs) {
-            let motion = Motion::new(task.from, &arcs)?;
-            let structure = Structure { arcs, ..Structure::default() };
-            return Some(Found { structure, motion, multipliers: None });
-        }
-        task.add_places(band::peaks(&task, &arcs), &arcs);
-    }
-    None
+    let arcs = Runs::kept(task, cells)?;
+    let motion = Motion::new(task.from, &arcs)?;
+    let structure = Structure { arcs, ..Structure::default() };
+    Some(Found { structure, motion, multipliers: None })
 }

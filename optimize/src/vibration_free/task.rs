@@ -9,7 +9,9 @@ use super::{MOST_MODES, Request, Robustness};
 /// What is aimed for in a band, as a part of what is tolerated: the rest is what the certificate cannot tell.
 const AIM: f64 = 1.0 - 2e-4;
 /// A part of what is tolerated that a solver can tell.
-const VISIBLE: f64 = 3e-5;
+const VISIBLE: f64 = 2e-5;
+/// The longest half period of a mode, in durations of the S-curve.
+const SLOWEST: f64 = 1e4;
 /// A distance of two poles, as a part of the frequency, of which the square is nothing.
 const SAME: f64 = 3e-7;
 /// Places of a band at which it is kept on a grid.
@@ -154,6 +156,9 @@ impl Task {
         let (mut zeros, mut bands) = (Vec::new(), Vec::new());
         let modes = distinct(modes);
         for (mode, twice) in &modes {
+            if 0.5 * mode.damped_period() > SLOWEST * time && time > 0.0 {
+                return Err(VibrationFreeError::Slow(mode.angular_frequency()));
+            }
             let (pole, half) = (mode.pole() * time, 0.5 * mode.damped_period() / time);
             match robustness {
                 Robustness::None => zeros.push(Zero::at(pole, *twice)),
@@ -206,6 +211,18 @@ impl Task {
     /// Adds places on a grid at which more is left of a band than is tolerated.
     pub(super) fn add_places(&mut self, peaks: Vec<Place>, arcs: &[Arc]) {
         self.places.extend(peaks.into_iter().filter(|place| place.part(arcs) > 1.0 + VISIBLE));
+    }
+
+    /// A jerk, exactly at its limit where it is so but for rounding.
+    pub(super) fn known(&self, jerk: f64) -> f64 {
+        let full = self.full(jerk);
+        if (jerk - full).abs() <= 1e-9 * full.abs() { full } else { jerk }
+    }
+
+    /// The frequency of the fastest mode, in rad over the duration of the S-curve.
+    pub(super) fn fastest(&self) -> f64 {
+        let zeros = self.zeros.iter().map(Zero::pole);
+        zeros.chain(self.places.iter().map(|place| place.pole)).map(|pole| pole.norm()).fold(0.0, f64::max)
     }
 
     /// The larger of the limits of the jerk.

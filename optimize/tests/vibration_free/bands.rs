@@ -9,7 +9,7 @@ use proptest::test_runner::TestRunner;
 use super::tasks::{Task, a_task, config, magnitude, simulated, sound};
 
 /// The most that is left over a band, at 2001 frequencies.
-pub(super) fn most_left(planned: &VibrationFreeMove, mode: &Mode, half_width: f64) -> f64 {
+pub(super) fn most_left<P: Profile>(planned: &P, mode: &Mode, half_width: f64) -> f64 {
     let left = |k: i32| {
         let factor = 1.0 + half_width * f64::from(k) / 1000.0;
         let other = Mode::new(mode.angular_frequency() * factor, mode.damping_ratio()).expect("mode");

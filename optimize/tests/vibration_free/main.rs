@@ -2,6 +2,7 @@
 #![expect(clippy::expect_used, clippy::float_cmp, reason = "helpers fail as tests do; ends are exact")]
 
 mod bands;
+mod clocked;
 mod failures;
 mod programme;
 mod published;

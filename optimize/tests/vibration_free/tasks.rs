@@ -219,6 +219,10 @@ pub(crate) fn at_rest(
     for mode in modes {
         let closed = profiles::residual_vibration(motion, *mode) / unit(mode);
         prop_assert!(closed <= 1e-12, "closed form {closed:e} of {mode:?}");
+        // Thousands of periods are left to the closed form: a simulation of them takes minutes.
+        if motion.duration() * mode.angular_frequency() > 2e4 {
+            continue;
+        }
         // A slow mode goes with the axis, which may go far beyond its distance.
         let way = motion.extrema().position.magnitude();
         let left = simulated(motion, *mode) / unit(mode).max(way);
