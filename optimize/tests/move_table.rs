@@ -50,20 +50,16 @@ fn moves_are_exact_and_last_no_longer_than_planned_ones() {
         let owned = built(robustness);
         let table = owned.as_table().expect("as it was built");
         let mut runner = proptest::test_runner::TestRunner::deterministic();
-        let mut compared = 0;
         for _ in 0..64 {
             let distance = (SHORTEST..LONGEST).new_tree(&mut runner).expect("a number").current();
             let duration = check(&table, distance);
             // The way back is the same motion.
             assert_eq!(check(&table, -distance).to_bits(), duration.to_bits());
-            // Some distances the table has and the search does not master.
-            let Ok(planned) = plan(distance, &limits(), &[mode()], robustness) else { continue };
-            compared += 1;
+            let planned = plan(distance, &limits(), &[mode()], robustness).expect("plan");
             // Quarters of each gap were compared, what lies between is not much longer.
             let most = planned.duration() * (1.0 + 1.5 * TOLERANCE);
             assert!(duration <= most, "{distance}: {duration}, planned {}", planned.duration());
         }
-        assert!(compared >= 48, "{compared}");
     }
 }
 

@@ -38,7 +38,7 @@ fn kept(
 }
 
 #[test]
-fn bands_are_kept_in_nine_cases_of_ten() {
+fn bands_are_kept() {
     let cases = config(48).cases;
     let mut runner = TestRunner::deterministic();
     let strategy = (a_task(2, true), 0.02_f64..0.35, magnitude(2e-3, 0.08));
@@ -54,7 +54,8 @@ fn bands_are_kept_in_nine_cases_of_ten() {
             }
         }
     }
-    assert!(10 * lost <= cases, "{lost} of {cases} did not converge");
+    // Three of four hundred are not found within the rounds of the search.
+    assert!(25 * lost <= cases, "{lost} of {cases} did not converge");
 }
 
 fn typical() -> Task {

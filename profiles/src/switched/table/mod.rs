@@ -131,6 +131,7 @@ impl<'a, const N: usize> MoveTable<'a, N> {
             };
             let found = profile(&motion, group, sign, distance);
             if found.duration < best.duration
+                && missed(&motion, distance) <= ENDED
                 && self.residual(&motion, distance) <= EXACT
                 && self.passed(&found) <= HELD
             {
@@ -197,10 +198,7 @@ impl<'a, const N: usize> MoveTable<'a, N> {
         }
         let motion: Switched<N> =
             switched(group, durations.iter().copied(), 1.0).ok_or(lost(f64::INFINITY))?;
-        let end = motion.states().last().unwrap_or_default();
-        let missed =
-            [end.position - distance, end.velocity * end.time, end.acceleration * end.time * end.time];
-        let missed = missed.iter().fold(0.0, |most, miss| larger(most, (miss / distance).abs()));
+        let missed = missed(&motion, distance);
         if missed > ENDED {
             return Err(lost(missed));
         }
@@ -216,6 +214,13 @@ impl<'a, const N: usize> MoveTable<'a, N> {
         let part = larger(jerk - 1.0, self.passed(&profile(&motion, group, 1.0, distance)));
         if part > HELD { Err(MoveTableError::Limits { distance, part }) } else { Ok(()) }
     }
+}
+
+/// By how much the way there misses rest at the end, as a part of the distance.
+fn missed<const N: usize>(motion: &Switched<N>, distance: f64) -> f64 {
+    let end = motion.states().last().unwrap_or_default();
+    let missed = [end.position - distance, end.velocity * end.time, end.acceleration * end.time * end.time];
+    missed.iter().fold(0.0, |most, miss| larger(most, (miss / distance).abs()))
 }
 
 /// The larger of two numbers; infinity where one is none.
