@@ -1,6 +1,7 @@
 //! Recommendations: what is promised holds for every mode that was reckoned with.
 #![expect(clippy::expect_used, reason = "helpers of tests fail as tests do")]
 
+use optimize::vibration_free::Robustness;
 use optimize::{
     MoveKind, MoveRecommendation, MoveTask, RecommendError, UncertainMode, recommend_move, recommend_shaper,
 };
@@ -107,6 +108,17 @@ proptest! {
             // None of the shorter ones would have done.
             prop_assert!(judged.iter().take(*chosen).all(|shaper| shaper.worst > tolerated));
         }
+    }
+}
+
+#[test]
+fn the_time_optimum_is_recommended_where_it_is_first() {
+    // A mode that is known exactly, and one that is known to 3 % (three deviations).
+    for (part, robust) in [(0.0, false), (0.01, true)] {
+        let best = of(&[uncertain(8.0, 0.02, part, 0.0)], &task(0.1, 1e-4)).best().expect("a move").clone();
+        let banded = matches!(best.kind, MoveKind::Optimum(Robustness::Band { .. }));
+        assert!(matches!(best.kind, MoveKind::Optimum(_)) && banded == robust, "{:?}", best.kind);
+        assert_eq!(best.settling, Some(0.0));
     }
 }
 
