@@ -10,6 +10,7 @@ pub mod reduction;
 pub mod shapers;
 mod simplex;
 mod swarm;
+mod trust;
 pub mod vibration_free;
 
 pub use cost::Cost;

@@ -5,18 +5,15 @@ use profiles::Complex;
 
 use super::task::{Place, Task, Train};
 use crate::programme::{Affine, Programme};
+use crate::trust::Trust;
 
 /// Prices of a violation in units of time, one after the other until none is left: zeros of neighbouring modes are worth
 /// more time than most.
 const PENALTIES: [f64; 3] = [200.0, 1e4, 1e6];
 /// A violation that is left to the exact solution of the zeros.
 const SMALL: f64 = 1e-6;
-/// A gain that the solver cannot tell from nothing.
-const NOTHING: f64 = 1e-11;
-/// Steps before a search is given up.
-const STEPS: usize = 80;
-/// Steps shorter than this are lost in the accuracy of the solver.
-const REST: f64 = 1e-7;
+/// Steps in rad of the slowest mode and parts of the sum of impulses.
+const TRUST: Trust = Trust { first: 0.2, most: 0.5, rest: 1e-7, nothing: 1e-11, steps: 80 };
 
 /// The shortest train near `start` that does what is asked at the zeros and at `places`, by linear programmes over its
 /// times and amplitudes within a region of trust.
@@ -34,35 +31,7 @@ pub(super) fn shortened(task: &Task, start: &Train, places: &[Place]) -> Train {
 /// The train near `start` that is shortest if a violation costs `penalty`.
 fn priced(task: &Task, start: &Train, places: &[Place], penalty: f64) -> Train {
     let merit = |train: &Train| train.duration() + penalty * task.violation(train, places).max(0.0);
-    let mut train = start.clone();
-    let mut value = merit(&train);
-    let mut trust = 0.2;
-    for _ in 0..STEPS {
-        if trust < REST {
-            break;
-        }
-        let Some((next, predicted)) = stepped(task, &train, places, penalty, trust) else {
-            trust *= 0.25;
-            continue;
-        };
-        let (expected, next_value) = (value - predicted, merit(&next));
-        if expected < NOTHING {
-            break;
-        }
-        let gained = (value - next_value) / expected;
-        if gained > 0.0 {
-            (train, value) = (next, next_value);
-        }
-        trust *= if gained > 0.75 {
-            2.0
-        } else if gained > 0.1 {
-            1.0
-        } else {
-            0.25
-        };
-        trust = trust.min(0.5);
-    }
-    train
+    TRUST.descend(start.clone(), merit, |train, trust| stepped(task, train, places, penalty, trust))
 }
 
 /// Where the linear programme about `train` leads, and the merit that it predicts.

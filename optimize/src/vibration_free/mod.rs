@@ -71,6 +71,9 @@ pub enum Robustness {
 /// principle, which is sufficient as the problem is convex, then shows whether the motion is the shortest there is, and
 /// where it is not what to change.
 ///
+/// Where that cannot be shown, the result is the shortest motion that was found; of those that last as long but for a billionth,
+/// the one with the fewest switches, and of these the one of least effort.
+///
 /// The result is a profile of constant jerk in each section: it ends where it should exactly, holds its limits to rounding,
 /// and leaves less than 1e-12 of the distance of each mode. Bands are certified over their whole width.
 ///

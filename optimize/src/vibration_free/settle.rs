@@ -6,16 +6,14 @@ use super::Motion;
 use super::asked::Asked;
 use super::task::{Place, Task};
 use crate::programme::{Affine, Programme};
+use crate::trust::Trust;
 
 /// Prices of a violation in units of time, one after the other until none is left.
 const PENALTIES: [f64; 3] = [100.0, 1e4, 1e6];
 /// A violation that is left to Newton's method.
 const SMALL: f64 = 1e-7;
-/// A gain that the solver cannot tell from nothing.
-const NOTHING: f64 = 1e-10;
-/// The first step, and the shortest one, as parts of the S-curve's duration.
-const FIRST: f64 = 0.05;
-const REST: f64 = 1e-9;
+/// Steps in parts of the S-curve's duration.
+const TRUST: Trust = Trust { first: 0.05, most: f64::INFINITY, rest: 1e-9, nothing: 1e-10, steps: 0 };
 
 /// The shortest motion near `arcs` that leaves no more than is tolerated at `places`, by a sequence of linear (or
 /// second-order cone) programmes over the durations within a region of trust, in at most so many steps for each price.
@@ -35,38 +33,14 @@ pub(super) fn settled(task: &Task, arcs: &[Arc], places: &[Place], steps: usize)
 
 /// The motion that is shortest if a violation costs `penalty`.
 fn priced(task: &Task, places: &[Place], start: &Motion, penalty: f64, steps: usize) -> Motion {
-    let merit = |motion: &Motion, asked: &Asked| motion.duration() + penalty * asked.violation();
-    let mut motion = *start;
-    let mut asked = Asked::of(task, places, &motion);
-    let mut value = merit(&motion, &asked);
-    let mut trust = FIRST;
-    for _ in 0..steps {
-        if trust < REST {
-            break;
-        }
-        let Some((next, predicted)) = stepped(&motion, &asked, penalty, trust) else {
-            trust *= 0.25;
-            continue;
-        };
-        let expected = value - predicted;
-        if expected < NOTHING {
-            break;
-        }
-        let next_asked = Asked::of(task, places, &next);
-        let next_value = merit(&next, &next_asked);
-        let gained = (value - next_value) / expected;
-        if gained > 0.0 {
-            (motion, value, asked) = (next, next_value, next_asked);
-        }
-        trust *= if gained > 0.75 {
-            2.0
-        } else if gained > 0.1 {
-            1.0
-        } else {
-            0.25
-        };
-    }
-    motion
+    let asked = |motion: Motion| (motion, Asked::of(task, places, &motion));
+    let trust = Trust { steps, ..TRUST };
+    let merit = |(motion, asked): &(Motion, Asked)| motion.duration() + penalty * asked.violation();
+    let step = |(motion, known): &(Motion, Asked), trust: f64| {
+        let (next, predicted) = stepped(motion, known, penalty, trust)?;
+        Some((asked(next), predicted))
+    };
+    trust.descend(asked(*start), merit, step).0
 }
 
 /// Where the programme about `motion` leads, and the merit that it predicts.
