@@ -28,68 +28,121 @@ impl OnGrid {
     /// Unknown are jerk, acceleration and velocity at the grid. Acceleration is linear in a cell, so that its limit holds;
     /// velocity is a parabola whose middle Bernstein coefficient is kept within the limit too, so that it holds in between.
     pub(super) fn furthest(task: &Task, cells: Vec<f64>) -> Option<Self> {
-        let n = cells.len();
-        let moves = task.goal.distance.is_some();
-        // Where the way is free it is the velocity at the start that is sought: that at the end may lie on its limit.
-        let (j, a) = (|k: usize| k, |k: usize| n + k - 1);
-        let v = |k: usize| if k == 0 { 3 * n - 2 } else { 2 * n - 1 + k - 1 };
-        let unknowns = if moves { 3 * n - 2 } else { 3 * n - 1 };
-        // Full jerk and the middle cell as units.
-        let unit = cells.iter().sum::<f64>() / n as f64;
-        let j_unit = task.full_jerk();
-        let (a_unit, v_unit, x_unit) = (j_unit * unit, j_unit * unit.powi(2), j_unit * unit.powi(3));
-        let steps: Vec<f64> = cells.iter().map(|cell| cell / unit).collect();
-        let from = task.from / v_unit;
-        let mut cost = vec![0.0; unknowns];
-        if moves {
-            for (k, d) in steps.iter().enumerate() {
-                cost[j(k)] -= d.powi(3) / 6.0;
-                if k > 0 {
-                    cost[a(k)] -= d * d / 2.0;
-                    cost[v(k)] -= d;
-                }
-            }
-        } else {
-            cost[v(0)] = 1.0;
+        let layout = Layout::of(task, &cells);
+        let mut programme = Programme::new(layout.cost());
+        layout.add_dynamics(&mut programme);
+        add_zeros(task, &cells, layout.j_unit, &mut programme);
+        layout.add_limits(&mut programme);
+        let (x, value) = programme.solved_to(1e-8)?;
+        let jerk = x.iter().take(cells.len()).map(|j| j * layout.j_unit).collect();
+        let reached = layout.reached(value);
+        Some(Self { cells, jerk, reached })
+    }
+}
+
+/// The unknowns of the programme, with full jerk and the mean cell as units.
+struct Layout<'a> {
+    task: &'a Task,
+    /// Lengths of the cells.
+    steps: Vec<f64>,
+    /// Length of the mean cell.
+    unit: f64,
+    j_unit: f64,
+    /// Whether the way is given, and the velocity at the start. Where it is free it is this velocity that is sought: that at
+    /// the end may lie on its limit.
+    moves: bool,
+}
+
+impl<'a> Layout<'a> {
+    fn of(task: &'a Task, cells: &[f64]) -> Self {
+        let unit = cells.iter().sum::<f64>() / cells.len() as f64;
+        let steps = cells.iter().map(|cell| cell / unit).collect();
+        Self { task, steps, unit, j_unit: task.full_jerk(), moves: task.goal.distance.is_some() }
+    }
+
+    fn a_unit(&self) -> f64 {
+        self.j_unit * self.unit
+    }
+
+    fn v_unit(&self) -> f64 {
+        self.a_unit() * self.unit
+    }
+
+    fn from(&self) -> f64 {
+        self.task.from / self.v_unit()
+    }
+
+    /// Index of the jerk of a cell.
+    fn j(k: usize) -> usize {
+        k
+    }
+
+    /// Index of the acceleration at the start of a cell but the first.
+    fn a(&self, k: usize) -> usize {
+        self.steps.len() + k - 1
+    }
+
+    /// Index of the velocity at the start of a cell; of the first one, where it is sought.
+    fn v(&self, k: usize) -> usize {
+        let n = self.steps.len();
+        if k == 0 { 3 * n - 2 } else { 2 * n - 1 + k - 1 }
+    }
+
+    /// The way with the other sign, but for what the velocity at the start makes of it in the first cell; or that velocity.
+    fn cost(&self) -> Vec<f64> {
+        let n = self.steps.len();
+        if !self.moves {
+            let mut cost = vec![0.0; 3 * n - 1];
+            cost[self.v(0)] = 1.0;
+            return cost;
         }
-        let mut programme = Programme::new(cost);
-        for (k, d) in steps.iter().enumerate() {
-            let mut slope = Affine { terms: vec![(j(k), *d)], constant: 0.0 };
-            let mut rise = Affine { terms: vec![(j(k), 0.5 * d * d)], constant: 0.0 };
+        let mut cost = vec![0.0; 3 * n - 2];
+        for (k, d) in self.steps.iter().enumerate() {
+            cost[Self::j(k)] -= d.powi(3) / 6.0;
             if k > 0 {
-                slope.terms.push((a(k), 1.0));
-                rise.terms.extend([(a(k), *d), (v(k), 1.0)]);
-            } else if moves {
-                rise.constant += from;
+                cost[self.a(k)] -= d * d / 2.0;
+                cost[self.v(k)] -= d;
+            }
+        }
+        cost
+    }
+
+    /// The distance, or the change of velocity, for a minimum of the cost.
+    fn reached(&self, minimum: f64) -> f64 {
+        if self.moves {
+            let first = self.steps.first().copied().unwrap_or(0.0);
+            (self.from() * first - minimum) * self.v_unit() * self.unit
+        } else {
+            self.task.goal.velocity - minimum * self.v_unit()
+        }
+    }
+
+    /// Acceleration and velocity follow from the jerk, to rest at the end.
+    fn add_dynamics(&self, programme: &mut Programme) {
+        let n = self.steps.len();
+        for (k, d) in self.steps.iter().enumerate() {
+            let mut slope = Affine { terms: vec![(Self::j(k), *d)], constant: 0.0 };
+            let mut rise = Affine { terms: vec![(Self::j(k), 0.5 * d * d)], constant: 0.0 };
+            if k > 0 {
+                slope.terms.push((self.a(k), 1.0));
+                rise.terms.extend([(self.a(k), *d), (self.v(k), 1.0)]);
+            } else if self.moves {
+                rise.constant += self.from();
             } else {
-                rise.terms.push((v(0), 1.0));
+                rise.terms.push((self.v(0), 1.0));
             }
             if k + 1 < n {
-                slope.terms.push((a(k + 1), -1.0));
-            }
-            if k + 1 < n {
-                rise.terms.push((v(k + 1), -1.0));
+                slope.terms.push((self.a(k + 1), -1.0));
+                rise.terms.push((self.v(k + 1), -1.0));
             } else {
-                rise.constant -= task.goal.velocity / v_unit;
+                rise.constant -= self.task.goal.velocity / self.v_unit();
             }
             programme.zero(slope);
             programme.zero(rise);
         }
-        for zero in &task.zeros {
-            for terms in responses(zero.pole(), &cells, zero.is_double()) {
-                programme.zero(Affine { terms, constant: 0.0 });
-            }
-        }
-        for Place { pole, tolerated } in &task.places {
-            let factor = j_unit / tolerated;
-            let scaled = |terms: Vec<(usize, f64)>| Affine {
-                terms: terms.into_iter().map(|(k, c)| (k, c * factor)).collect(),
-                constant: 0.0,
-            };
-            let mut rows = responses(*pole, &cells, false).into_iter().map(scaled);
-            let (re, im) = (rows.next().unwrap_or_default(), rows.next().unwrap_or_default());
-            programme.cone(Affine { terms: vec![], constant: 1.0 }, re, im);
-        }
+    }
+
+    fn add_limits(&self, programme: &mut Programme) {
         let mut within = |terms: &[(usize, f64)], bounds: Interval, unit: f64| {
             if bounds.upper.is_finite() {
                 let terms = terms.iter().map(|(k, c)| (*k, -c)).collect();
@@ -99,20 +152,34 @@ impl OnGrid {
                 programme.positive(Affine { terms: terms.to_vec(), constant: -bounds.lower / unit });
             }
         };
-        for (k, d) in steps.iter().enumerate() {
-            within(&[(j(k), 1.0)], task.jerk, j_unit);
+        let Task { velocity, acceleration, jerk, .. } = self.task;
+        for (k, d) in self.steps.iter().enumerate() {
+            within(&[(Self::j(k), 1.0)], *jerk, self.j_unit);
             if k > 0 {
-                within(&[(a(k), 1.0)], task.acceleration, a_unit);
-                within(&[(v(k), 1.0)], task.velocity, v_unit);
-                within(&[(v(k), 1.0), (a(k), 0.5 * d)], task.velocity, v_unit);
+                within(&[(self.a(k), 1.0)], *acceleration, self.a_unit());
+                within(&[(self.v(k), 1.0)], *velocity, self.v_unit());
+                within(&[(self.v(k), 1.0), (self.a(k), 0.5 * d)], *velocity, self.v_unit());
             }
         }
-        let (x, value) = programme.solved_to(1e-8)?;
-        let first = steps.first().copied().unwrap_or(0.0);
-        let jerk = x.iter().take(n).map(|j| j * j_unit).collect();
-        let reached =
-            if moves { (from * first - value) * x_unit } else { task.goal.velocity - value * v_unit };
-        Some(Self { cells, jerk, reached })
+    }
+}
+
+/// Nothing is left of the zeros, and of the bands no more than is tolerated.
+fn add_zeros(task: &Task, cells: &[f64], j_unit: f64, programme: &mut Programme) {
+    for zero in &task.zeros {
+        for terms in responses(zero.pole(), cells, zero.is_double()) {
+            programme.zero(Affine { terms, constant: 0.0 });
+        }
+    }
+    for Place { pole, tolerated } in &task.places {
+        let factor = j_unit / tolerated;
+        let scaled = |terms: Vec<(usize, f64)>| Affine {
+            terms: terms.into_iter().map(|(k, c)| (k, c * factor)).collect(),
+            constant: 0.0,
+        };
+        let mut rows = responses(*pole, cells, false).into_iter().map(scaled);
+        let (re, im) = (rows.next().unwrap_or_default(), rows.next().unwrap_or_default());
+        programme.cone(Affine { terms: vec![], constant: 1.0 }, re, im);
     }
 }
 
