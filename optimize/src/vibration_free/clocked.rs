@@ -1,13 +1,13 @@
 //! Motions whose jerk changes on the ticks of a clock only.
 
 use profiles::switched::{Arc, Switched};
-use profiles::{Complex, Extrema, Piecewise, Profile, Sample, Section, Sectioned};
+use profiles::{Piecewise, Profile};
 
+use super::MOST_ARCS;
 use super::band;
 use super::error::VibrationFreeError;
 use super::motion::VibrationFreeMove;
 use super::runs::Runs;
-use super::{MOST_ARCS, Request};
 
 /// Runs of a motion on a clock: the arcs, and a tick about each switch.
 const MOST_RUNS: usize = 2 * MOST_ARCS;
@@ -118,44 +118,11 @@ impl<'a> Clocked<'a> {
             .zip(&self.runs)
             .map(|(arc, ticks)| Arc { jerk: arc.jerk * unit, duration: *ticks as f64 * self.period })
             .collect();
-        let from = match self.planned.request() {
-            Request::Move { .. } => 0.0,
-            Request::Ramp { from, .. } => from,
-        };
+        let from = self.planned.request().from();
         let motion = Switched::<MOST_RUNS>::new(from, &arcs)?;
         let profile = motion.profile(&self.planned.goal(), &[]);
         self.planned.holds(&profile).then_some(profile)
     }
 }
 
-impl Profile for ClockedMove {
-    fn duration(&self) -> f64 {
-        self.profile.duration()
-    }
-    fn sample(&self, t: f64) -> Sample {
-        self.profile.sample(t)
-    }
-    fn extrema(&self) -> Extrema {
-        self.profile.extrema()
-    }
-    fn response(&self, p: Complex<f64>) -> Complex<f64> {
-        self.profile.response(p)
-    }
-}
-
-impl Sectioned for ClockedMove {
-    const HARMONIC: bool = false;
-
-    fn section(&self, index: usize) -> Option<Section> {
-        self.profile.section(index)
-    }
-    fn section_at(&self, t: f64) -> Option<Section> {
-        self.profile.section_at(t)
-    }
-    fn before(&self) -> Sample {
-        self.profile.before()
-    }
-    fn after(&self) -> Sample {
-        self.profile.after()
-    }
-}
+super::answers_as_its_profile!(ClockedMove);

@@ -1,5 +1,43 @@
 //! The shortest motion that leaves nothing of given modes.
 
+/// Makes a motion answer like the profile inside it.
+macro_rules! answers_as_its_profile {
+    ($motion:ident) => {
+        impl profiles::Profile for $motion {
+            fn duration(&self) -> f64 {
+                self.profile.duration()
+            }
+            fn sample(&self, t: f64) -> profiles::Sample {
+                self.profile.sample(t)
+            }
+            fn extrema(&self) -> profiles::Extrema {
+                self.profile.extrema()
+            }
+            fn response(&self, p: profiles::Complex<f64>) -> profiles::Complex<f64> {
+                self.profile.response(p)
+            }
+        }
+
+        impl profiles::Sectioned for $motion {
+            const HARMONIC: bool = false;
+
+            fn section(&self, index: usize) -> Option<profiles::Section> {
+                self.profile.section(index)
+            }
+            fn section_at(&self, t: f64) -> Option<profiles::Section> {
+                self.profile.section_at(t)
+            }
+            fn before(&self) -> profiles::Sample {
+                self.profile.before()
+            }
+            fn after(&self) -> profiles::Sample {
+                self.profile.after()
+            }
+        }
+    };
+}
+use answers_as_its_profile;
+
 mod asked;
 mod band;
 mod clocked;
@@ -26,7 +64,7 @@ pub use error::VibrationFreeError;
 pub use motion::VibrationFreeMove;
 pub use table::{MoveTableBuildError, OwnedMoveTable, TABLE_TOLERANCE, plan_table};
 
-use profiles::switched::Switched;
+use profiles::switched::{Goal, Switched};
 use profiles::{Limits, Mode};
 
 /// The most modes that are dealt with at a time.
@@ -40,6 +78,23 @@ type Motion = Switched<MOST_ARCS>;
 enum Request {
     Move { distance: f64 },
     Ramp { from: f64, to: f64 },
+}
+
+impl Request {
+    /// Velocity at the start, m/s.
+    fn from(self) -> f64 {
+        match self {
+            Self::Move { .. } => 0.0,
+            Self::Ramp { from, .. } => from,
+        }
+    }
+
+    fn goal(self) -> Goal {
+        match self {
+            Self::Move { distance } => Goal { velocity: 0.0, distance: Some(distance) },
+            Self::Ramp { to, .. } => Goal { velocity: to, distance: None },
+        }
+    }
 }
 
 /// What is asked at and about each mode.

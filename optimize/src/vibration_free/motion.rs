@@ -1,10 +1,7 @@
 //! A planned motion, in units.
 
 use profiles::switched::{Arc, Contact, Goal, Switched, Zero};
-use profiles::{
-    Complex, Extrema, Limits, Mode, Piecewise, Profile, SCurve, Sample, Section, Sectioned,
-    residual_vibration,
-};
+use profiles::{Extrema, Limits, Mode, Piecewise, Profile, SCurve, residual_vibration};
 
 use super::band;
 use super::error::VibrationFreeError;
@@ -108,14 +105,7 @@ impl VibrationFreeMove {
         robustness: Robustness,
         s_curve: f64,
     ) -> Result<Self, VibrationFreeError> {
-        let goal = match request {
-            Request::Move { distance } => Goal { velocity: 0.0, distance: Some(distance) },
-            Request::Ramp { to, .. } => Goal { velocity: to, distance: None },
-        };
-        let from = match request {
-            Request::Move { .. } => 0.0,
-            Request::Ramp { from, .. } => from,
-        };
+        let (from, goal) = (request.from(), request.goal());
         let unit = |order: i32| task.length / task.time.powi(order);
         let [velocity, acceleration, jerk] = [limits.velocity(), limits.acceleration(), limits.jerk()];
         // The limit itself, not what is left of it after scaling there and back.
@@ -354,34 +344,4 @@ fn free_already(task: &Task) -> Option<Found> {
     free.then(|| Found { structure, motion, multipliers: Some(vec![]) })
 }
 
-impl Profile for VibrationFreeMove {
-    fn duration(&self) -> f64 {
-        self.profile.duration()
-    }
-    fn sample(&self, t: f64) -> Sample {
-        self.profile.sample(t)
-    }
-    fn extrema(&self) -> Extrema {
-        self.profile.extrema()
-    }
-    fn response(&self, p: Complex<f64>) -> Complex<f64> {
-        self.profile.response(p)
-    }
-}
-
-impl Sectioned for VibrationFreeMove {
-    const HARMONIC: bool = false;
-
-    fn section(&self, index: usize) -> Option<Section> {
-        self.profile.section(index)
-    }
-    fn section_at(&self, t: f64) -> Option<Section> {
-        self.profile.section_at(t)
-    }
-    fn before(&self) -> Sample {
-        self.profile.before()
-    }
-    fn after(&self) -> Sample {
-        self.profile.after()
-    }
-}
+super::answers_as_its_profile!(VibrationFreeMove);

@@ -34,8 +34,8 @@ const AIDED: &[usize] = &[3, 4, 5];
 /// The same for bands, with which a programme takes longer yet.
 const AIDED_WITH_BANDS: &[usize] = &[3, 5];
 
-/// The shortest motion: the duration in which the furthest motion on a grid gets to the goal by the secant rule, and from
-/// every grid but the first, where the jerk switches, the optimum by exchange.
+/// The shortest motion: the duration in which the furthest motion on a grid gets to the goal, by the secant rule for its
+/// logarithm, and from every grid but the first, where the jerk switches, the optimum by exchange.
 pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
     // The places of bands grow from grid to grid.
     let mut task = task.clone();

@@ -130,6 +130,14 @@ impl Task {
         if modes.len() > MOST_MODES {
             return Err(VibrationFreeError::Modes { modes: modes.len(), most: MOST_MODES });
         }
+        if let Robustness::Band { half_width, residual } = robustness {
+            if !(half_width > 0.0 && half_width < 1.0) {
+                return Err(VibrationFreeError::HalfWidth(half_width));
+            }
+            if !(1e-9..1.0).contains(&residual) {
+                return Err(VibrationFreeError::Residual(residual));
+            }
+        }
         let (s_curve, change) = match *request {
             Request::Move { distance } => (SCurve::rest_to_rest(distance, limits)?, distance),
             Request::Ramp { from, to } => (SCurve::velocity_ramp(from, to, limits)?, to - from),
@@ -164,12 +172,6 @@ impl Task {
                 Robustness::None => zeros.push(Zero::at(pole, *twice)),
                 Robustness::DoubleZero => zeros.push(Zero::at(pole, true)),
                 Robustness::Band { half_width, residual } => {
-                    if !(half_width > 0.0 && half_width < 1.0) {
-                        return Err(VibrationFreeError::HalfWidth(half_width));
-                    }
-                    if !(1e-9..1.0).contains(&residual) {
-                        return Err(VibrationFreeError::Residual(residual));
-                    }
                     let factors = Interval::new(1.0 - half_width, 1.0 + half_width);
                     // A change of velocity is set against |dv| / w.
                     let unit = if goal.distance.is_some() { 1.0 } else { pole.norm().recip() };

@@ -57,6 +57,10 @@ fn bad_requests_are_named_with_their_number() {
             "{error:?}"
         );
     }
+    // Also where there is no mode to make a band of.
+    let none = Task { modes: vec![], ..task.clone() };
+    let error = timed("half width", &none, Robustness::Band { half_width: 2.0, residual: 0.02 }).err();
+    assert_eq!(error, Some(VibrationFreeError::HalfWidth(2.0)));
     for residual in [0.0, -0.1, 1e-10, 1.0, f64::NAN, f64::INFINITY] {
         let error = timed("residual", &task, Robustness::Band { half_width: 0.1, residual }).err();
         assert!(

@@ -45,3 +45,10 @@ fn the_durations_of_the_grid_are_met() {
         }
     }
 }
+
+#[test]
+fn the_readme_s_move_of_two_double_zeros() {
+    let task = Task::new(0.1, [0.5, 5.0, 200.0], &[(8.0, 0.02), (18.4, 0.02)]);
+    let planned = task.plan(Robustness::DoubleZero);
+    assert!((planned.duration() - 0.3612).abs() < DIGIT && planned.is_proven(), "{}", planned.duration());
+}
