@@ -16,7 +16,9 @@ const DENSITY: f64 = 1.5;
 const FEWEST: f64 = 64.0;
 const MOST: f64 = 240.0;
 /// By how much longer than the shortest a motion is tried with a jerk that is not always full.
-const LONGER: [f64; 10] = [3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 0.02, 0.05, 0.2, 0.5, 1.0];
+const LONGER: [f64; 11] = [3e-4, 6e-4, 1e-3, 2e-3, 4e-3, 8e-3, 0.02, 0.05, 0.2, 0.5, 1.0];
+/// Bisections between the longest that fails and the shortest that does not.
+const BISECTIONS: usize = 4;
 /// The most cells of a finer grid.
 const FINEST: usize = 480;
 /// Cells into which one near a switch is cut.
@@ -95,7 +97,9 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
         let structure = Structure { arcs: motion.arcs().to_vec(), ..Structure::default() };
         Found { structure, motion, multipliers: None }
     });
-    let freely = if best.is_none() { freely(&task, &runs, duration) } else { None };
+    // Nothing here is proven: what lasts longer than the grid says is not the best there is.
+    let close = |found: &Found| found.motion.duration() <= duration * (1.0 + LONGER[1]);
+    let freely = if best.as_ref().is_some_and(close) { None } else { freely(&task, &runs, duration) };
     shaped
         .into_iter()
         .chain(freely)
@@ -108,7 +112,24 @@ pub(super) fn searched(task: &Task) -> Result<Found, VibrationFreeError> {
 fn freely(task: &Task, runs: &[f64], shortest: f64) -> Option<Found> {
     let equal = [1.0; MOST_ARCS];
     let grids = [runs, &equal].into_iter().filter(|grid| grid.len() <= MOST_ARCS);
-    LONGER.iter().find_map(|longer| grids.clone().find_map(|grid| on(task, grid, shortest * (1.0 + longer))))
+    let at = |longer: f64| grids.clone().find_map(|grid| on(task, grid, shortest * (1.0 + longer)));
+    let mut early = 0.0;
+    for late in LONGER {
+        let Some(mut best) = at(late) else {
+            early = late;
+            continue;
+        };
+        let mut late = late;
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (early + late);
+            match at(middle) {
+                Some(found) => (best, late) = (found, middle),
+                None => early = middle,
+            }
+        }
+        return Some(best);
+    }
+    None
 }
 
 /// A motion on a grid, of a duration.
